@@ -158,19 +158,14 @@ void SteppedHost::note_goal(const Key& key, HeardGoal& heard, bool changed) {
   }
 }
 
-// A version that this process did not send was made before its restart.
 void SteppedHost::hear_plan(const v1::Plan& plan) {
   if (!is_ours(plan.header()) || plan.engine() != setup_.engine) return;
-  last_version_ = std::max(last_version_, plan.version());
-  if (history_.version(plan.version()) != nullptr) return;
+  versions_.note(plan.version());
   try {
-    heard_.executed = services::wire::from_wire(plan);
+    if (versions_.take(services::wire::from_wire(plan))) note_executed();
   } catch (const services::wire::WireError&) {
     return;
   }
-  history_.keep(*heard_.executed);
-  take_receipt();
-  step_soon();
 }
 
 // Before this is known results are kept of whoever commands.
@@ -197,24 +192,16 @@ void SteppedHost::hear_result(const v1::CommandAck& ack) {
 }
 
 void SteppedHost::hear_receipt(const Receipt& receipt) {
-  newest_ = receipt;
-  last_version_ = std::max({last_version_, receipt.version, receipt.refused});
-  take_receipt();
+  versions_.hear(receipt);
+  note_executed();
 }
 
-// It is no use before the version that it speaks of is known.
-void SteppedHost::take_receipt() {
-  if (!newest_ || (newest_->version != 0 && history_.version(newest_->version) == nullptr)) return;
-  heard_.receipt = newest_;
-  if (newest_->version != 0) {
-    orders_.executed(newest_->version);
-    history_.forget_before(newest_->version);
-    forget_steps_of_others(*history_.version(newest_->version));
-  } else {
-    progress_.clear();
-    results_.clear();
+void SteppedHost::note_executed() {
+  if (const FlexiblePlan* const executed = versions_.executed()) {
+    orders_.executed(executed->version);
+    forget_steps_of_others(*executed);
   }
-  step_soon();
+  if (versions_.has_news()) step_soon();
 }
 
 // What has left the plan never comes again by its id, and a long mission has no end of it.
@@ -223,6 +210,17 @@ void SteppedHost::forget_steps_of_others(const FlexiblePlan& plan) {
   for (const temporal::PlanActivity& activity : plan.activities) ids.insert(activity.id);
   std::erase_if(progress_, [&](const auto& step) { return !ids.contains(step.first); });
   std::erase_if(results_, [&](const auto& one) { return !ids.contains(std::get<1>(one.first)); });
+}
+
+// Who goes on from a version that it did not send hears all that became of it.
+void SteppedHost::tell_again(StepInputs& inputs) const {
+  const std::uint32_t version = inputs.executed->version;
+  std::vector<engine::StepStatus> steps;
+  for (const auto& [activity, progress] : progress_) steps.push_back({version, activity, progress, "", 0});
+  inputs.steps.insert(inputs.steps.begin(), steps.begin(), steps.end());
+  inputs.results.clear();
+  for (const auto& [key, result] : results_)
+    if (std::get<0>(key) == executive_) inputs.results.push_back(result);
 }
 
 void SteppedHost::step_soon() {
@@ -238,7 +236,8 @@ void SteppedHost::begin_step() {
   if (wake_) node_.cancel(*std::exchange(wake_, std::nullopt));
   StepInputs inputs = std::exchange(heard_, {});
   inputs.now = node_.now();
-  inputs.last_version = last_version_;
+  versions_.give(inputs);
+  if (inputs.executed) tell_again(inputs);
   inputs.model_changes = orders_.take();
   worker_.compute(
       [engine = engine_, inputs = std::move(inputs)](const std::stop_token&) {
@@ -264,7 +263,7 @@ void SteppedHost::end_step(Time now, StepResult result) {
     orders_.fail(result.error);
     make_anew();
   } else if (const auto model =
-                 orders_.answer(result.output.model_answers, result.output.model, last_version_);
+                 orders_.answer(result.output.model_answers, result.output.model, versions_.last_version());
              model == NetworkOrders::Model::unkept) {
     make_anew();
   } else {
@@ -288,24 +287,17 @@ void SteppedHost::end_step(Time now, StepResult result) {
 void SteppedHost::send(Time now, const PlanDelta& delta) {
   FlexiblePlan next;
   const std::string refusal = refusal_of(now, delta, next);
-  last_version_ = std::max(last_version_, delta.added.version);
   if (refusal.empty()) {
     deltas_.write(services::wire::to_wire(delta));
-    history_.keep(std::move(next));
-    return;
+    return versions_.sent(std::move(next));
   }
   report(v1::SEVERITY_ERROR, "planner.defect",
          version_text(delta.added.version) + " of engine '" + setup_.engine + "' is " + refusal);
-  // The engine hears it with its next step, which this alone does not bring about: a defect must not spin.
-  heard_.receipt = newest_.value_or(Receipt{});
-  heard_.receipt->refused = delta.added.version;
-  heard_.receipt->reason = refusal;
+  versions_.refuse(delta.added.version, refusal);
 }
 
 std::string SteppedHost::refusal_of(Time now, const PlanDelta& delta, FlexiblePlan& next) const {
-  if (delta.added.version <= last_version_)
-    return "not above " + version_text(last_version_) + ", the newest there was";
-  if (std::string fault = history_.apply(delta, next); !fault.empty()) return "no change of a plan: " + fault;
+  if (std::string fault = versions_.apply(delta, next); !fault.empty()) return fault;
   engine::Request situation;
   situation.engine = setup_.engine;
   situation.robot = setup_.robot;
@@ -314,7 +306,7 @@ std::string SteppedHost::refusal_of(Time now, const PlanDelta& delta, FlexiblePl
   situation.state = state_;
   for (const auto& [key, heard] : goals_)
     if (heard.told) situation.goals.push_back(*heard.goal);
-  const FlexiblePlan* before = history_.version(delta.from_version);
+  const FlexiblePlan* before = versions_.version(delta.from_version);
   return engine::refusal_of(*checker_,
                             {situation, {}, next, before, before ? &progress_ : nullptr, setup_.model_file});
 }
@@ -327,12 +319,7 @@ void SteppedHost::make_anew() {
     if (heard.told) heard_.goals.push_back(*heard.goal);
   for (const auto& [timeline, value] : state_) heard_.observations.push_back({timeline, value, node_.now()});
   for (const auto& [id, product] : products_) heard_.products.push_back(product);
-  for (const auto& [key, result] : results_) heard_.results.push_back(result);
-  heard_.receipt = newest_;
-  if (newest_ && newest_->version != 0)
-    if (const FlexiblePlan* executed = history_.version(newest_->version)) heard_.executed = *executed;
-  for (const auto& [activity, progress] : progress_)
-    heard_.steps.push_back({newest_ ? newest_->version : 0, activity, progress, ""});
+  versions_.engine_is_new();  // with what is executed the rest is told again
 }
 
 // Before the version goes out: whoever sees both reads what led to it first.
@@ -351,7 +338,7 @@ void SteppedHost::tell_outlook(Time now, const engine::StepOutput& output) {
   const auto tell = [&](auto sample, const auto& publisher) {
     sample.robot(setup_.robot);
     sample.version(publisher.written() + 1);
-    sample.plan_version(last_version_);
+    sample.plan_version(versions_.last_version());
     sample.made_us(now.count());
     sample.network(output.model.name);
     sample.network_version(output.model.version);

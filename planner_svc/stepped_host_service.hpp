@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "planner_svc/engine/plan_history.hpp"
 #include "planner_svc/engine/table.hpp"
+#include "planner_svc/engine/version_exchange.hpp"
 #include "planner_svc/network_orders_service.hpp"
 #include "planner_svc/settings.hpp"
 #include "roci_idl/goal.h"
@@ -62,7 +62,8 @@ class SteppedHost {
   void note_executive(const std::string& executive);
   void hear_result(const v1::CommandAck& ack);
   void hear_receipt(const engine::Receipt& receipt);
-  void take_receipt();
+  void note_executed();
+  void tell_again(engine::StepInputs& inputs) const;
   void forget_steps_of_others(const temporal::FlexiblePlan& plan);
   void step_soon();
   void begin_step();
@@ -95,9 +96,7 @@ class SteppedHost {
   std::map<std::string, engine::DataProduct> products_;  // by id
   temporal::Progress progress_;                          // of the executed version
   std::map<ResultKey, engine::CommandResult> results_;   // likewise, of completed commands
-  std::optional<engine::Receipt> newest_;                // receipt
-  engine::PlanHistory history_;
-  std::uint32_t last_version_ = 0;
+  engine::VersionExchange versions_;
   std::vector<engine::BlockingGoal> blocking_;  // as told
 
   services::bounds::Tally refusals_;

@@ -11,6 +11,7 @@
 #include "services/rpc.hpp"
 #include "sim_svc/scenario/run_file.hpp"
 #include "sim_svc/wire_service.hpp"
+#include "sim_svc/world/match.hpp"
 #include "sim_svc/world_file_service.hpp"
 
 namespace roci::sim {
@@ -47,11 +48,6 @@ constexpr char kGround[] = "ground";  // who tells of hazards that the scenario 
 constexpr Duration kCallDeadline = std::chrono::seconds(30);
 constexpr Duration kFarewell = std::chrono::seconds(1);  // from the mission's outcome to the end of the run
 
-template <class... Cases>
-struct Match : Cases... {
-  using Cases::operator()...;
-};
-
 class SimService final : public services::Service, private owner::Driver {
  public:
   SimService(services::Node& node, RunSetup run, const services::RunSettings& settings)
@@ -84,6 +80,9 @@ class SimService final : public services::Service, private owner::Driver {
     });
     services::subscribe(node, topics::event, [this](const v1::Event& event) {
       if (event.header().sender() != node_.options().name) order_.note(event.code(), event.text());
+    });
+    services::subscribe(node, topics::downlink_schedule, [this](const v1::DownlinkSchedule& schedule) {
+      tell(world_.heed(node_.now(), wire::schedule_of(schedule)));
     });
     node.at(Time{}, [this] { tell(world_.advance(node_.now())); });
     for (const Stimulus& stimulus : scenario_.stimuli) {

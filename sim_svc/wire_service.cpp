@@ -67,6 +67,16 @@ world::Way way_of(const v1::PathReply& reply) {
   return way;
 }
 
+world::DownlinkSchedule schedule_of(const v1::DownlinkSchedule& schedule) {
+  world::DownlinkSchedule out{schedule.robot(), {}};
+  if (!schedule.limited()) return out;  // nobody has thought of what goes when
+  for (const v1::ScheduledDownlink& downlink : schedule.downlinks()) {
+    auto& products = out.products[downlink.activity()];
+    for (const v1::ScheduledProduct& product : downlink.products()) products.push_back(product.id());
+  }
+  return out;
+}
+
 world::Trajectory trajectory_of(const v1::ArmMotionReply& reply) {
   world::Trajectory out;
   for (const v1::JointState& state : reply.trajectory())

@@ -9,6 +9,7 @@
 #include "roci_idl/health.h"
 #include "roci_idl/motion.h"
 #include "roci_idl/network.h"
+#include "roci_idl/outlook.h"
 #include "services/owner/command.hpp"
 #include "sim_svc/scenario/scenario.hpp"
 #include "sim_svc/world/world.hpp"
@@ -22,6 +23,7 @@ world::Order order_of(const services::owner::Request&);
 /// Returns the owner's word on a task; a report of a repair is none (CommandServer::repair).
 services::owner::Word word_of(const world::TaskReport&);
 world::Way way_of(const v1::PathReply&);
+world::DownlinkSchedule schedule_of(const v1::DownlinkSchedule&);
 world::Trajectory trajectory_of(const v1::ArmMotionReply&);
 
 /// These translate what goes out.

@@ -11,6 +11,7 @@
 #include "ground_console/cli/mission_words.hpp"
 #include "ground_console/cli/network.hpp"
 #include "ground_console/cli/orders.hpp"
+#include "ground_console/cli/outlook/verb.hpp"
 #include "ground_console/cli/reach.hpp"
 #include "ground_console/cli/report.hpp"
 #include "ground_console/cli/runs.hpp"
@@ -39,6 +40,7 @@ struct Line {
   std::int64_t launcher = 0;
   cli::ReachArguments reach;
   cli::map::MapArguments map;
+  cli::outlook::OutlookArguments outlook;
   std::vector<double> from;
   bool prunes = false;
   std::size_t kept = 20;
@@ -206,6 +208,24 @@ void add_network_verbs(CLI::App& app, Line& line) {
            [](lib::Client& client, const Line& l) { return cli::show_networks(client, l.json); });
 }
 
+void add_outlook_verbs(CLI::App& app, Line& line) {
+  using cli::outlook::Subject;
+  const auto add = [&](const char* name, Subject subject, const char* help) {
+    CLI::App* verb = add_verb(app, line, name, help, [](lib::Client& client, const Line& l) {
+      return cli::outlook::show_outlook(client, l.outlook, l.json);
+    });
+    verb->preparse_callback([&line, subject](std::size_t) { line.outlook.subject = subject; });
+    verb->add_option("--svg", line.outlook.svg, "Write it as a picture to this file");
+    verb->add_option("--robot", line.outlook.robot,
+                     "Whose planner (default: the only one, or the first by name)");
+  };
+  add("downlinks", Subject::downlinks,
+      "Which data go to Earth with which downlink, what is left out, and why");
+  add("utility", Subject::utility, "What the chains of the plan and all data are worth, rank by rank");
+  add("energy", Subject::energy, "The energy at the end of each planned task, with worst and best case");
+  add("subway", Subject::subway, "The science subway map: sites, targets, outcomes, and which is next");
+}
+
 void tell_waiting() {
   std::cerr << "roci: no mission runs on this machine yet; waiting for one (Ctrl-C ends, ./run starts one)\n";
 }
@@ -243,6 +263,7 @@ int main(int argc, char** argv) {
   add_goal_verbs(app, line);
   add_order_verbs(app, line);
   add_network_verbs(app, line);
+  add_outlook_verbs(app, line);
   add_verb(app, line, "status", "Mission, goals, services, newest values",
            [](lib::Client& client, const Line& l) { return cli::show_status(client, l.json); });
   add_verb(app, line, "plan", "The running plan and the state of each activity",

@@ -139,6 +139,8 @@ Client::Client(const services::process::Connection& connection)
   follow(topics::decision);
   follow(topics::order_status);
   follow(topics::function_offer);
+  follow(topics::downlink_schedule);
+  follow(topics::mission_outlook);
 }
 
 template <class T>

@@ -12,7 +12,7 @@ inline constexpr std::size_t kEntries = 10'000;
 inline constexpr std::size_t kSteps = 100'000;
 /// Stages of one order; each is said once, and once more to who joins late.
 inline constexpr std::size_t kStages = 64;
-/// Executives, each with its plan.
+/// Executives, each with its plan, and robots with what their planners expect.
 inline constexpr std::size_t kExecutives = 64;
 /// Services, and members of pairs.
 inline constexpr std::size_t kServices = 1'024;

@@ -122,6 +122,16 @@ void MissionView::take(const v1::FunctionOffer& offer) {
   count(keep_newest(offers_, {offer.module_name(), offer.owner()}, offer, kServices));
 }
 
+void MissionView::take(const v1::DownlinkSchedule& schedule) {
+  note_time(schedule.header());
+  count(keep_newest(schedules_, schedule.robot(), schedule, kExecutives));
+}
+
+void MissionView::take(const v1::MissionOutlook& outlook) {
+  note_time(outlook.header());
+  count(keep_newest(outlooks_, outlook.robot(), outlook, kExecutives));
+}
+
 std::uint64_t MissionView::model_version(const std::string& owner) const {
   std::uint64_t out = 0;
   for (const auto& [key, offer] : offers_)

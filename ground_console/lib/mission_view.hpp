@@ -14,6 +14,7 @@
 #include "roci_idl/health.h"
 #include "roci_idl/motion.h"
 #include "roci_idl/order.h"
+#include "roci_idl/outlook.h"
 #include "roci_idl/plan.h"
 #include "roci_idl/standby.h"
 
@@ -42,6 +43,8 @@ class MissionView {
   void take(const v1::Decision& decision);
   void take(const v1::OrderStatus& status);
   void take(const v1::FunctionOffer& offer);
+  void take(const v1::DownlinkSchedule& schedule);
+  void take(const v1::MissionOutlook& outlook);
 
   using GoalKey = std::pair<std::string, std::string>;  ///< issuer, id
 
@@ -70,6 +73,9 @@ class MissionView {
   const std::map<std::string, v1::DataProduct>& products() const { return products_; }
   /// What owners offer, by module and owner.
   const std::map<std::pair<std::string, std::string>, v1::FunctionOffer>& offers() const { return offers_; }
+  /// What planners expect of their plans, by robot.
+  const std::map<std::string, v1::DownlinkSchedule>& schedules() const { return schedules_; }
+  const std::map<std::string, v1::MissionOutlook>& outlooks() const { return outlooks_; }
   /// The version that the model of an owner of functions has now; 0 while it has offered nothing.
   std::uint64_t model_version(const std::string& owner) const;
   const std::map<std::string, v1::Heartbeat>& services() const { return heartbeats_; }
@@ -107,6 +113,8 @@ class MissionView {
   std::map<std::pair<std::string, std::string>, v1::LeaseMessage> members_;  ///< by executive and member
   std::map<std::pair<std::string, std::string>, v1::Hazard> hazards_;        // by finder and id
   std::map<std::pair<std::string, std::string>, v1::FunctionOffer> offers_;
+  std::map<std::string, v1::DownlinkSchedule> schedules_;  // by robot
+  std::map<std::string, v1::MissionOutlook> outlooks_;     // by robot
   std::map<std::string, std::vector<Place>> ways_;
   std::map<std::string, v1::Decision> decisions_;
   std::map<GoalKey, std::vector<v1::OrderStatus>> orders_;  // by issuer and id

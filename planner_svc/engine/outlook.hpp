@@ -81,10 +81,10 @@ struct ProductOutlook {
   friend bool operator==(const ProductOutlook&, const ProductOutlook&) = default;
 };
 
-/// Is what the budget is expected to hold when a planned task has ended.
+/// Is what the budget is expected to hold now, and where a planned task starts or ends.
 struct EnergyPoint {
   temporal::Time at{0};
-  std::string activity;  ///< that ends then; empty: now
+  std::string activity;  ///< that ends then; empty: none
   double predicted_j = 0;
   double worst_j = 0;  ///< what is still to come takes 1.1 times as much
   double best_j = 0;   ///< 0.9 times

@@ -1,6 +1,7 @@
 #include "planner_svc/engine/plan_history.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 namespace roci::planner::engine {
@@ -27,7 +28,7 @@ void PlanHistory::keep(temporal::FlexiblePlan plan) {
   const std::uint32_t number = plan.version;
   newest_ = std::max(newest_, number);
   versions_.insert_or_assign(number, std::move(plan));
-  while (versions_.size() > kVersions) versions_.erase(versions_.begin());
+  while (versions_.size() > kVersions) versions_.erase(std::next(versions_.begin()));
 }
 
 void PlanHistory::forget_before(std::uint32_t version) {

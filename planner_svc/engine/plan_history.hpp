@@ -19,7 +19,7 @@ class PlanHistory {
   std::string apply(const temporal::PlanDelta& delta, temporal::FlexiblePlan& next) const;
   /// Null: the version is not known.
   const temporal::FlexiblePlan* version(std::uint32_t number) const;
-  /// The plan was sent, or is executed. Of more than kVersions the oldest goes.
+  /// The plan was sent, or is executed. Of more than kVersions the second oldest goes: the oldest may be executed.
   void keep(temporal::FlexiblePlan plan);
   /// This version is executed: those before it are changed no more.
   void forget_before(std::uint32_t version);

@@ -69,6 +69,7 @@ struct Receipt {
   std::string reason;         ///< for that
   std::string conflict;       ///< that the executive sees ahead in its version; empty: none
   bool open = false;          ///< a plan would be taken now
+  friend bool operator==(const Receipt&, const Receipt&) = default;
 };
 
 /// What the ground changes of the engine's model, under its key (R83, R118). It is obeyed whole or not at all, between two cycles.

@@ -78,6 +78,9 @@ SimulatedWorld simulated_world(const sim::scenario::RunSetup& run, const std::st
       add_component(robot.name, component.name,
                     setup == nullptr ? nullptr : made(*setup, component.name).get(), out);
     if (robot.power) out.timelines.push_back(robot.name + ".battery");
+    if (robot.thermal)
+      for (const auto& zone : robot.thermal->zones)
+        out.timelines.push_back(robot.name + ".heat." + zone.name);
     if (!robot.on_ground && (setup == nullptr || !setup->pose)) continue;
     for (const char* number : {".x", ".y", ".heading"}) out.timelines.push_back(robot.name + number);
   }

@@ -50,7 +50,8 @@ Ending DirectRadio::begin(const world::Task& task, Time now, Surroundings& aroun
   run.latest_end = task.latest_end.value_or(kNoBound);
   run.look_at = now;
   const double usual_s = task.command == "prepare" ? settings_.prepare_s : settings_.receive_s;
-  if (task.command != "send") run.work_s = usual_s * noise_.factor(settings_.duration_noise);
+  if (task.command != "send")
+    run.work_s = usual_s * settings_.duration_factor * noise_.factor(settings_.duration_noise);
   run.hollow = hollow_.take(task.command);
   run_ = std::move(run);
   if (around.body.thermal && !settings_.zone.empty()) around.body.thermal->hold(settings_.zone, this, now);
@@ -126,7 +127,9 @@ Ending DirectRadio::go_on(Time now, Surroundings& around) {
 Ending DirectRadio::go_on_sending(Time now, Surroundings& around) {
   if (run_->transfer && end_of(*run_->transfer) <= now) note_sent(now, around);
   const bool cut_off = run_->transfer.has_value();
-  const Product* left = cut_off ? around.body.data->find(run_->transfer->product) : next_product(around.body);
+  const Choice next =
+      cut_off ? Choice{around.body.data->find(run_->transfer->product)} : next_product(around.body);
+  const Product* left = next.product;
   if (!left) return end(std::nullopt, now, around);
   const bool due = named() || left->tier == Tier::critical;  // it belongs to this downlink
   const std::string unsent = "before '" + left->id + "' was sent";
@@ -136,8 +139,8 @@ Ending DirectRadio::go_on_sending(Time now, Surroundings& around) {
     return end(Failure{"out-of-time", "the downlink's time was over " + unsent}, now, around);
   if (now >= run_->latest_end || (now >= run_->session_end && !due)) return end(std::nullopt, now, around);
   if (!cut_off)
-    run_->transfer =
-        Transfer{left->id, static_cast<double>(left->bytes), noise_.factor(settings_.rate_noise), now};
+    run_->transfer = Transfer{left->id, next.name, static_cast<double>(left->bytes),
+                              noise_.factor(settings_.rate_noise), now};
   return std::nullopt;
 }
 
@@ -145,6 +148,7 @@ void DirectRadio::note_sent(Time now, Surroundings& around) {
   const Transfer done = *std::exchange(run_->transfer, std::nullopt);
   const Product* product = around.body.data->find(done.product);
   if (!product) return;
+  run_->names_sent.insert(done.name);
   ++run_->products;
   run_->bytes += static_cast<double>(product->bytes);
   if (run_->hollow) {
@@ -177,26 +181,26 @@ bool DirectRadio::open(const Product& product) const {
   return product.fate == Fate::stored && !run_->hollow_sent.contains(product.id);
 }
 
-const Product* DirectRadio::next_product(const world::Body& body) const {
-  if (!body.data) return nullptr;
+DirectRadio::Choice DirectRadio::next_product(const world::Body& body) const {
+  if (!body.data) return {};
   const Product* best = nullptr;  // of the most urgent tier the oldest
   for (const Product& one : body.data->products())
     if (open(one) && (!best || one.tier < best->tier)) best = &one;
-  if (!best || best->tier == Tier::critical || !named()) return best;
+  if (!best || best->tier == Tier::critical || !named()) return {best};
   return next_named(*body.data);
 }
 
-const Product* DirectRadio::next_named(const world::DataStore& store) const {
+DirectRadio::Choice DirectRadio::next_named(const world::DataStore& store) const {
   const auto& names = *named();
   for (const std::string& name : names) {
     const Product* existing = store.find(name);
-    if (existing && open(*existing)) return existing;
-    if (existing || name.find('/') == std::string::npos) continue;
+    if (existing && open(*existing)) return {existing, name};
+    if (existing || name.find('/') == std::string::npos || run_->names_sent.contains(name)) continue;
     for (const Product& one : store.products())
       if (open(one) && one.kind == kind_of(name) && std::ranges::find(names, one.id) == names.end())
-        return &one;
+        return {&one, name};
   }
-  return nullptr;
+  return {};
 }
 
 double DirectRadio::rate_byte_s(const Transfer& transfer) const {

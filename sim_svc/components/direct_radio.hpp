@@ -29,6 +29,7 @@ struct DirectRadioSettings {
   double wait_w = 10;        ///< while it warms up, or waits for contact
   double waste_share = 0.3;  ///< of what it draws, left as heat in its zone
   double duration_noise = 0.05;
+  double duration_factor = 1;
   double session_s =
       0;  ///< a downlink that no schedule names lasts so long at most; 0: until its step must end
   double light_time_s = 0;  ///< after which the last byte of a product is received
@@ -78,8 +79,14 @@ class DirectRadio final : public world::Component {
   void restore(const world::Memory&) override;
 
  private:
+  // A product to be sent, and under which name the schedule means it, if it does.
+  struct Choice {
+    const world::Product* product = nullptr;
+    std::string name{};
+  };
   struct Transfer {
     std::string product;
+    std::string name;
     double bytes = 0;  // left at `since`
     double rate_noise = 1;
     temporal::Time since{};
@@ -98,6 +105,7 @@ class DirectRadio final : public world::Component {
     std::optional<temporal::Time> look_at{};  // then what it waits for is looked at again
     bool hollow = false;                      // nothing of what it sends arrives
     std::set<std::string> hollow_sent{};      // what it believes to have sent
+    std::set<std::string> names_sent{};       // of the schedule
     std::size_t products = 0;
     double bytes = 0;
     temporal::Time at{};  // of the newest step
@@ -112,8 +120,8 @@ class DirectRadio final : public world::Component {
   void note_sent(temporal::Time now, world::Surroundings&);
   // The products that the schedule names for this downlink, in order; null: it names none.
   const std::vector<std::string>* named() const;
-  const world::Product* next_product(const world::Body&) const;
-  const world::Product* next_named(const world::DataStore&) const;
+  Choice next_product(const world::Body&) const;
+  Choice next_named(const world::DataStore&) const;
   bool open(const world::Product&) const;
   double rate_byte_s(const Transfer&) const;
   temporal::Time end_of(const Transfer&) const;

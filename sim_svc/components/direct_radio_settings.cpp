@@ -16,6 +16,7 @@ DirectRadioSettings read_direct_radio_settings(setup::Settings& in) {
   out.wait_w = in.number("wait_w", out.wait_w);
   out.waste_share = in.share("waste_share", out.waste_share);
   out.duration_noise = in.share("duration_noise", out.duration_noise);
+  out.duration_factor = in.number("duration_factor", out.duration_factor, 1e-3);
   out.session_s = in.number("session_s", out.session_s);
   out.light_time_s = in.number("light_time_s", out.light_time_s);
   return out;

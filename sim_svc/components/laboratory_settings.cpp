@@ -67,8 +67,7 @@ LaboratorySettings read_laboratory_settings(Settings& in) {
   out.duration_noise = in.number("duration_noise", out.duration_noise);
   out.duration_factor = in.number("duration_factor", out.duration_factor, 1e-3);
   out.power_noise = in.number("power_noise", out.power_noise);
-  out.positive_share = in.number("positive_share", out.positive_share);
-  if (out.positive_share > 1) in.find("positive_share")->fail("is a share, at most 1; correct the number");
+  out.positive_share = in.share("positive_share", out.positive_share);
   out.positive_content = in.number("positive_content", out.positive_content, 0.01);
   if (const auto products = in.find("products"))
     products->each_field([&](const std::string& form, const Entry& entry) {

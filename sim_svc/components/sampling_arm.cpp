@@ -89,8 +89,10 @@ std::vector<Phase> SamplingArm::phases_of(const Run& run, double noise) const {
   Phase warming;
   warming.until = Phase::Until::warm;
   std::vector<Phase> out{warming, lasting(travel / settings_.joint_speed_rad_s, settings_.arm_w)};
-  if (run.command == "prepare") out.push_back(lasting(settings_.prepare_s, settings_.arm_w));
-  if (run.command == "transport") out.push_back(lasting(settings_.transport_s, settings_.arm_w));
+  if (run.command == "prepare")
+    out.push_back(lasting(settings_.prepare_s, settings_.arm_w + settings_.prepare_w));
+  if (run.command == "transport")
+    out.push_back(lasting(settings_.transport_s, settings_.arm_w + settings_.transfer_w));
   if (run.command == "discard") out.push_back(lasting(settings_.discard_s, settings_.arm_w));
   if (run.command == "excavate")
     out.push_back(work(0, cutting_w()));  // how long, is known when it begins to cut
@@ -191,7 +193,10 @@ Ending SamplingArm::finish(Surroundings& around) {
 
 // A trench has grown by and by.
 void SamplingArm::take_effect(const Run& done) {
-  if (done.command == "prepare") prepared_ = true;
+  if (done.command == "prepare") {
+    prepared_ = true;
+    held_.reset();
+  }
   if (done.command == "collect") held_ = done.where;
   if (done.command == "transport") delivered_ = std::exchange(held_, std::nullopt);
   if (done.command == "discard") {

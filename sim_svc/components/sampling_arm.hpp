@@ -41,6 +41,8 @@ struct SamplingArmSettings {
   double duration_noise = 0.05;
   double duration_factor = 1;  ///< of all durations but the cutting
   double arm_w = 60;           ///< joints and electronics
+  double prepare_w = 0;        ///< beside the arm, while it calibrates: heaters of the links
+  double transfer_w = 0;       ///< beside the arm, while it hands over
   double drill_w = 110;        ///< beside the arm, while it drills
   double power_noise = 0.05;
   double waste_share = 0.3;  ///< of what it draws, left as heat in its zone
@@ -51,7 +53,7 @@ struct SamplingArmSettings {
 };
 
 /// Is a sampling arm. It takes prepare, excavate (site), collect (site, target), transport and discard; each warms the zone
-/// first, moves the arm and works. What is dug stays dug, whatever becomes of the task; a trench that has its depth already is
+/// first, moves the arm and works. After prepare, which comes before all else and may come again, the tool is empty. What is dug stays dug, whatever becomes of the task; a trench that has its depth already is
 /// done at once. It fails `stuck` where the cutter jams and `too-hard` where the ice gives way no more, and refuses what makes
 /// no sense: `not-prepared unknown-site unknown-target not-excavated not-empty no-sample too-cold`.
 class SamplingArm final : public PhasedComponent, public world::SampleCarrier {

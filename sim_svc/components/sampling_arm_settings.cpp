@@ -14,12 +14,6 @@ namespace {
 constexpr double kLeast = 1e-3;   // of what is divided by
 constexpr double kDeepest = 100;  // m
 
-double share(Settings& in, std::string_view key, double fallback, double least) {
-  const double out = in.number(key, fallback, least);
-  if (out > 1) in.find(key)->fail("'" + std::string(key) + "' is a share, at most 1; correct the number");
-  return out;
-}
-
 ArmJoints read_joints(const Entry& entry) {
   const auto items = entry.items();
   ArmJoints out{};
@@ -74,7 +68,9 @@ SamplingArmSettings read_sampling_arm_settings(Settings& in) {
   out.cutter.power_w = in.number("cutter_w", out.cutter.power_w, kLeast);
   out.cutter.area_m2 = in.number("trench_area_m2", out.cutter.area_m2, 1e-6);
   out.specific_energy_j_m3 = in.number("specific_energy_j_m3", out.specific_energy_j_m3, 1);
-  out.cutter_efficiency = share(in, "cutter_efficiency", out.cutter_efficiency, kLeast);
+  out.cutter_efficiency = in.share("cutter_efficiency", out.cutter_efficiency);
+  if (out.cutter_efficiency < kLeast)
+    in.find("cutter_efficiency")->fail("nothing would come to the ice; give at least 0.001");
   out.give_up_s = in.number("give_up_s", out.give_up_s);
   out.prepare_s = in.number("prepare_s", out.prepare_s);
   out.collect_s = in.number("collect_s", out.collect_s);
@@ -83,9 +79,11 @@ SamplingArmSettings read_sampling_arm_settings(Settings& in) {
   out.duration_noise = in.number("duration_noise", out.duration_noise);
   out.duration_factor = in.number("duration_factor", out.duration_factor, kLeast);
   out.arm_w = in.number("arm_w", out.arm_w);
+  out.prepare_w = in.number("prepare_w", out.prepare_w);
+  out.transfer_w = in.number("transfer_w", out.transfer_w);
   out.drill_w = in.number("drill_w", out.drill_w);
   out.power_noise = in.number("power_noise", out.power_noise);
-  out.waste_share = share(in, "waste_share", out.waste_share, 0);
+  out.waste_share = in.share("waste_share", out.waste_share);
   out.joint_speed_rad_s = in.number("joint_speed_rad_s", out.joint_speed_rad_s, 1e-6);
   if (const auto joints = in.find("rest")) out.rest = read_joints(*joints);
   if (const auto joints = in.find("inlet")) out.inlet = read_joints(*joints);

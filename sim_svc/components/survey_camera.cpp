@@ -11,12 +11,7 @@ using world::Failure;
 using world::Surroundings;
 
 SurveyCamera::SurveyCamera(SurveyCameraSettings settings, world::RandomStream noise)
-    : settings_(std::move(settings)), noise_(std::move(noise)), phases_(settings_.zone) {}
-
-std::vector<std::string> SurveyCamera::zones() const {
-  if (settings_.zone.empty()) return {};
-  return {settings_.zone};
-}
+    : PhasedComponent(settings.zone), settings_(std::move(settings)), noise_(std::move(noise)) {}
 
 State SurveyCamera::state() const { return run_ ? State{"surveying", {run_->command}} : State{"idle", {}}; }
 

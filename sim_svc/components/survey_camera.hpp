@@ -6,10 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "sim_svc/components/hollow_commands.hpp"
-#include "sim_svc/components/phased_task.hpp"
+#include "sim_svc/components/phased_component.hpp"
 #include "sim_svc/components/products.hpp"
-#include "sim_svc/world/component.hpp"
 #include "sim_svc/world/random_stream.hpp"
 
 namespace roci::sim::components {
@@ -37,7 +35,7 @@ struct SurveyCameraSettings {
 /// Is a survey camera. It takes find_sites, find_targets (site) and panorama; each warms the zone first, and makes the products of its
 /// settings. Results of find_sites are value_<site> of all sites, of find_targets visual_<site>_<target> of the site's; a site of
 /// which it knows no value is refused as `unknown-site`, if it knows that of any.
-class SurveyCamera final : public world::Component {
+class SurveyCamera final : public PhasedComponent {
  public:
   SurveyCamera(SurveyCameraSettings, world::RandomStream noise);
 
@@ -46,34 +44,18 @@ class SurveyCamera final : public world::Component {
     return {{"find_sites", {}}, {"find_targets", {"site"}}, {"panorama", {}}};
   }
   std::vector<world::StateForm> state_forms() const override { return {{"idle"}, {"surveying", 1}}; }
-  std::vector<std::string> zones() const override;
-  std::string held_zone() const override { return busy() ? phases_.zone() : ""; }
   /// Returns idle or surveying (command).
   temporal::State state() const override;
-  bool busy() const override { return run_.has_value(); }
 
   world::Ending begin(const world::Task&, temporal::Time now, world::Surroundings&) override;
-  std::optional<temporal::Time> next_change() const override { return phases_.next_change(); }
   world::Ending finish(world::Surroundings&) override;
-  void slow_down(double pace, temporal::Time until, temporal::Time now, world::Surroundings&) override {
-    phases_.slow_down(pace, until, now);
-  }
-  void hollow_next(const std::string& command) override { hollow_.add(command); }
   void halt(temporal::Time now, world::Surroundings&) override;
-  void settle(temporal::Time now, world::Body& body) override { phases_.settle(now, body); }
-
-  double energy_j(temporal::Time from, temporal::Time to) const override {
-    return phases_.energy_j(from, to);
-  }
-  double peak_power_w() const override { return phases_.peak_power_w(); }
   std::map<std::string, temporal::Value> results() const override { return results_; }
 
  private:
   SurveyCameraSettings settings_;
   world::RandomStream noise_;
-  PhasedTask phases_;
   std::optional<world::Task> run_;
-  HollowCommands hollow_;
   std::map<std::string, temporal::Value> results_;
 };
 

@@ -5,17 +5,14 @@
 #include <stdexcept>
 #include <utility>
 
+#include "sim_svc/world/match.hpp"
+
 namespace roci::sim::world {
 
 using temporal::Duration;
 using temporal::Time;
 
 namespace {
-
-template <class... Cases>
-struct Match : Cases... {
-  using Cases::operator()...;
-};
 
 constexpr Duration kTick{1000000};  // batteries are settled at least this often
 

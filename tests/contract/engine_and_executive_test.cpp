@@ -251,6 +251,9 @@ TEST_P(EngineAndExecutive, TheEngineDiesAndGoesOnWithThePlanThatRuns) {
   kill_at(200s, "planner_svc");
   fly();
   expect_all_done();
+  ASSERT_FALSE(schedules_.empty());
+  EXPECT_EQ(schedules_.front().header().incarnation(), 1U);
+  EXPECT_EQ(schedules_.back().header().incarnation(), 2U) << "the next one tells its schedule, too";
 }
 
 TEST_P(EngineAndExecutive, TheExecutiveDiesAndNoCommitmentIsLost) {

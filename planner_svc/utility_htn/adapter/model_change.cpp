@@ -51,7 +51,7 @@ cycle::Past past_for(const Network& next, const Network& before, const cycle::Cy
   for (const auto& timeline : next.timelines) {
     const auto same = index_of(before.timelines, timeline.name, &temporal::timelines::Definition::name);
     const auto value =
-        same ? number_of(timeline, value_of(before.timelines[*same], cycle.timelines().value(*same, now)))
+        same && !timeline.is_claim() ? number_of(timeline, value_of(before.timelines[*same], cycle.timelines().value(*same, now)))
              : std::nullopt;
     out.internal.push_back(value.value_or(timeline.initial));
   }

@@ -107,12 +107,14 @@ void add_energy(const Situation& at, MissionOutlook& out) {
   out.capacity_j = budget.highest;
   const auto& timelines = at.cycle.timelines();
   const double now = timelines.value(at.network.budget, at.now);
-  std::map<Time, std::string> ends{{at.now, ""}};
+  std::map<Time, std::string> ends{{at.now, ""}};  // and starts, with the task that ends then
   for (const Block& block : at.cycle.blocks())
     for (std::size_t i = 0; i < block.links.size(); ++i) {
       const Link& each = block.links[i];
-      if (each.end > at.now && !cycle::is_over(each.stage) && each.stage != Stage::doomed)
-        ends.emplace(each.end, activity_id(at.network, each, cycle::task_id(block.number, i)));
+      if (each.end <= at.now || cycle::is_over(each.stage) || each.stage == Stage::doomed) continue;
+      if (each.start > at.now) ends.try_emplace(each.start);
+      std::string& ending = ends[each.end];
+      if (ending.empty()) ending = activity_id(at.network, each, cycle::task_id(block.number, i));
     }
   const auto bounded = [&](double value) { return std::clamp(value, budget.lowest, budget.highest); };
   for (const auto& [end, activity] : ends) {

@@ -16,6 +16,8 @@ using temporal::timelines::Constraint, temporal::timelines::Definition, temporal
 
 namespace {
 
+constexpr char kInitialPrefix[] = "network#";
+
 /// Bounds the wait of a task that names no timeout itself.
 constexpr Duration kWait = temporal::seconds(3600);
 
@@ -218,9 +220,11 @@ FlexiblePlan plan_of(const model::Network& network, const flattening::Chains& ch
   return out;
 }
 
+bool is_initial(const PlanActivity& activity) { return activity.id.starts_with(kInitialPrefix); }
+
 PlanActivity initial_activity(const model::Network& network, const cycle::Past& past, const Frame& frame) {
   PlanActivity out;
-  out.id = "network#" + std::to_string(frame.version);
+  out.id = kInitialPrefix + std::to_string(frame.version);
   out.name = "begin";
   out.robot = frame.robot;
   out.lateness = temporal::LatenessPolicy::push;

@@ -55,6 +55,9 @@ temporal::FlexiblePlan plan_of(const model::Network& network, const flattening::
 temporal::PlanActivity initial_activity(const model::Network& network, const cycle::Past& past,
                                         const Frame& frame);
 
+/// Returns whether the activity is one of initial_activity().
+bool is_initial(const temporal::PlanActivity& activity);
+
 /// Is what a plan tells of the cycle that made it.
 struct Recovered {
   cycle::Past past;

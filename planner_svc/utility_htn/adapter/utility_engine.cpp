@@ -17,8 +17,8 @@ namespace {
 
 constexpr char kRequest[] = "request";
 
-/// So many versions are kept for a receipt that comes late.
-constexpr std::size_t kUnanswered = 4;
+/// What is refused again and again is sent at last after 2 to the power of this intervals.
+constexpr std::uint32_t kLongestPause = 5;
 
 const std::string* argument(const Goal& goal, const std::string& name) {
   const auto found = std::ranges::find(goal.arguments, name, &temporal::Property::name);
@@ -34,14 +34,27 @@ UtilityEngine::UtilityEngine(const engine::Setup& setup, model::Network network,
       assessor_(std::make_unique<assessor::SubwayAssessor>(network_, chains_)),
       scheduler_(search::make_scheduler("nearest")),
       settings_(settings),
-      delivery_(network_) {
-  // The first cycle cannot commit what would have to start at once.
-  for (model::Task& task : network_.tasks)
-    if (task.fixed && temporal::bounded(task.preferred_start))
-      task.preferred_start = std::max(task.preferred_start, network_.cycle.commit_window);
-}
+      delivery_(network_) {}
 
 UtilityEngine::~UtilityEngine() = default;
+
+// The first cycle cannot commit what would have to start at once. What began before it and has no command, as a view of Earth, holds for
+// the rest of its time; a command that is late is missed.
+void UtilityEngine::begin_fixed(Time origin) {
+  if (std::exchange(has_begun_, true)) return;
+  const Time first = origin + network_.cycle.commit_window;
+  for (model::Task& task : network_.tasks) {
+    if (!task.fixed || task.preferred_start >= first) continue;
+    if (task.commands.empty()) {
+      const double late = temporal::to_seconds(first - task.preferred_start);
+      if (late >= model::duration_s(task, cycle_->past().values)) continue;
+      task.duration.constant -= late;
+    } else if (task.preferred_start < origin) {
+      continue;
+    }
+    task.preferred_start = first;
+  }
+}
 
 StepOutput UtilityEngine::step(const StepInputs& inputs) {
   if (cycle_ == nullptr) {
@@ -55,10 +68,10 @@ StepOutput UtilityEngine::step(const StepInputs& inputs) {
   for (const engine::ModelChange& one : inputs.model_changes)
     out.model_answers.push_back(change(one, inputs.now));
   out.model = {network_.name, network_.version};
-  if (open_ && !goals_.empty() && inputs.now >= next_cycle_) {
-    const bool lost = told_.version != accepted_.version;
-    // Nobody has answered for a whole interval: the executive died before it took that version.
-    if (lost) told_ = accepted_;
+  await_ends(inputs.now);
+  if (open_ && !goals_.empty() && inputs.now >= next_cycle_ && !plan_ended_) {
+    const bool lost = versions_.give_up();  // for a whole interval nobody has answered
+    begin_fixed(inputs.now);
     std::vector<cycle::Block> begun;
     std::ranges::copy_if(cycle_->blocks(), std::back_inserter(begun), &cycle::Block::begun);
     const cycle::Report report = cycle_->run(inputs.now);
@@ -66,13 +79,26 @@ StepOutput UtilityEngine::step(const StepInputs& inputs) {
     out.account.explored = report.explored;
     out.account.notes = report.notes;
     while (next_cycle_ <= inputs.now) next_cycle_ += network_.cycle.process_interval;
-    if (report.changed || lost || told_.version == 0 || to_tell_) send(inputs, out);
+    const bool again = refused_in_turn_ != 0 && inputs.now >= again_at_;
+    if (report.changed || lost || versions_.base().version == 0 || to_tell_ || again) send(inputs, out);
     tell_outlook(report, begun, inputs.now, out);
   }
   out.blocking = blocking_;
   out.doubted = std::exchange(doubted_, {});
-  if (open_ && !goals_.empty()) out.wake = next_cycle_;
+  if (open_ && !goals_.empty())
+    out.wake = plan_ended_ ? *plan_ended_ + network_.cycle.process_interval : next_cycle_;
   return out;
+}
+
+// The word that the plan has ended may come before the word of how its last task ended. Who takes that for a failure does it twice.
+void UtilityEngine::await_ends(Time now) {
+  if (!plan_ended_) return;
+  const auto runs = [](const cycle::Link& link) { return link.stage == cycle::Stage::running; };
+  const bool any = std::ranges::any_of(
+      cycle_->blocks(), [&](const cycle::Block& block) { return std::ranges::any_of(block.links, runs); });
+  if (any && now < *plan_ended_ + network_.cycle.process_interval) return;
+  plan_ended_.reset();
+  cycle_->nothing_runs(now);
 }
 
 std::string UtilityEngine::learn(const std::string& parameter, double value) {
@@ -181,32 +207,41 @@ void UtilityEngine::hear_step(const engine::StepStatus& step, Time now) {
 void UtilityEngine::hear_receipt(const engine::Receipt& receipt, Time now) {
   open_ = receipt.open;
   if (!receipt.conflict.empty()) cycle_->doubt();
-  if (receipt.version == 0 && told_.version != 0 && receipt.refused != told_.version) {
-    cycle_->nothing_runs(now);
-    told_ = accepted_ = {};
-    sent_.clear();
-  }
-  if (const auto taken = sent_.find(receipt.version); taken != sent_.end()) {
-    accepted_ = std::move(taken->second);
-    sent_.erase(sent_.begin(), std::next(taken));
-  }
-  if (receipt.refused != 0 && receipt.refused == told_.version) told_ = accepted_;
+  if (versions_.hear(receipt)) plan_ended_ = now;
+  if (receipt.version != 0) plan_ended_.reset();
+  const std::uint32_t refused = versions_.refused_in_turn();
+  if (refused > refused_in_turn_)
+    again_at_ = now + network_.cycle.process_interval * (1 << std::min(refused, kLongestPause));
+  refused_in_turn_ = refused;
 }
 
-// A process that was started again takes up the plan that is executed.
+// Another process sent what is executed, or it is not what this one sent last: the plan goes on from there.
 void UtilityEngine::go_on_with(const FlexiblePlan& executed, Time now) {
   // It may have been made with the network before the one in force.
   const Fitted fitted = fit(network_, chains_, executed);
   Recovered recovered = recover(network_, chains_, fitted.plan);
-  recovered.last_block = std::max(recovered.last_block, fitted.last_block);
+  recovered.last_block = std::max({recovered.last_block, fitted.last_block, cycle_->last_block()});
   for (const temporal::PlanActivity& gone : fitted.gone)
     recovered.points.set(*task_of(gone.id), gone.start_point, gone.end_point);
+  if (std::exchange(goes_on_, true)) {
+    recovered.past.values = cycle_->past().values;
+    recovered.past.done.insert(cycle_->past().done.begin(), cycle_->past().done.end());
+    recovered.measured.insert(measurements_.taken().begin(), measurements_.taken().end());
+  }
   to_tell_ = to_tell_ || fitted.foreign;
   measurements_.resume(std::move(recovered.measured));
   origin_ = executed.origin;
   points_ = recovered.points;
+  begin_fixed(origin_);
+  initial_.reset();
+  for (const temporal::PlanActivity& activity : executed.activities)
+    if (is_initial(activity)) {
+      initial_ = activity;
+      points_.set(Points::kInitial, activity.start_point, activity.end_point);
+    }
   cycle_->resume(recovered.past, std::move(recovered.blocks), recovered.last_block, now);
-  told_ = accepted_ = executed;
+  for (const auto& [timeline, value] : std::map(newest_)) hear_observation({timeline, value, now});
+  versions_.resume(executed);
   next_cycle_ = now;
 }
 
@@ -234,7 +269,13 @@ void UtilityEngine::serve_requests(FlexiblePlan& plan) const {
 }
 
 void UtilityEngine::send(const StepInputs& inputs, StepOutput& out) {
-  const bool whole = told_.version == 0;
+  const FlexiblePlan& told = versions_.base();
+  // What is committed ends by itself; what is not would wait for ever in a plan that nothing else is left of.
+  const auto waits = [](const temporal::PlanActivity& one) {
+    return one.commit == temporal::CommitState::planned;
+  };
+  if (cycle_->blocks().empty() && std::ranges::none_of(told.activities, waits)) return;
+  const bool whole = told.version == 0;
   if (whole) {
     origin_ = inputs.now;
     points_ = {};
@@ -243,9 +284,8 @@ void UtilityEngine::send(const StepInputs& inputs, StepOutput& out) {
   const Frame frame{setup_.engine, setup_.robot,   inputs.last_version + 1,
                     origin_,       served_goals(), measurements_.taken()};
   points_.keep_only(cycle_->blocks(), initial_.has_value());
-  FlexiblePlan plan = plan_of(network_, chains_, *cycle_, frame, told_, points_);
+  FlexiblePlan plan = plan_of(network_, chains_, *cycle_, frame, told, points_);
   serve_requests(plan);
-  if (plan.activities.empty()) return;
   if (whole) {
     initial_ = initial_activity(network_, cycle_->past(), frame);
     std::tie(initial_->start_point, initial_->end_point) = points_.of(Points::kInitial);
@@ -259,11 +299,10 @@ void UtilityEngine::send(const StepInputs& inputs, StepOutput& out) {
   if (initial_) unannounced_.clear();
   if (initial_) plan.activities.insert(plan.activities.begin(), *initial_);
   plan.point_count = points_.count();
-  out.delta = temporal::difference(told_, plan);
-  told_ = std::move(plan);
+  out.delta = temporal::difference(told, plan);
+  versions_.send(std::move(plan));
   to_tell_ = false;
-  sent_[told_.version] = told_;
-  if (sent_.size() > kUnanswered) sent_.erase(sent_.begin());
+  goes_on_ = true;
 }
 
 }  // namespace roci::planner::utility_htn::adapter

@@ -13,6 +13,7 @@
 #include "planner_svc/utility_htn/adapter/measurements.hpp"
 #include "planner_svc/utility_htn/adapter/outlook.hpp"
 #include "planner_svc/utility_htn/adapter/plan_of.hpp"
+#include "planner_svc/utility_htn/adapter/versions.hpp"
 #include "planner_svc/utility_htn/cycle/cycle.hpp"
 
 namespace roci::planner::utility_htn::adapter {
@@ -46,6 +47,8 @@ class UtilityEngine final : public engine::SteppedEngine {
   void hear_product(const engine::DataProduct& product);
   void hear_step(const engine::StepStatus& step, temporal::Time now);
   void hear_receipt(const engine::Receipt& receipt, temporal::Time now);
+  void begin_fixed(temporal::Time origin);
+  void await_ends(temporal::Time now);
   void go_on_with(const temporal::FlexiblePlan& executed, temporal::Time now);
   void send(const engine::StepInputs& inputs, engine::StepOutput& out);
   void tell_outlook(const cycle::Report& report, const std::vector<cycle::Block>& begun_before,
@@ -72,10 +75,13 @@ class UtilityEngine final : public engine::SteppedEngine {
   bool to_tell_ = false;               // the next cycle sends a version, whatever it does
   Measurements measurements_;
   Points points_;
-  temporal::FlexiblePlan told_;                           // newest version
-  temporal::FlexiblePlan accepted_;                       // newest that the executive has taken
-  std::map<std::uint32_t, temporal::FlexiblePlan> sent_;  // by version, of which no receipt has come
-  std::optional<temporal::PlanActivity> initial_;         // until it is over
+  Versions versions_;
+  std::uint32_t refused_in_turn_ = 0;  // versions; a refused one is sent again, after a while
+  temporal::Time again_at_{0};
+  std::optional<temporal::Time> plan_ended_;  // until it is known how all of it ended
+  bool goes_on_ = false;  // it has planned before, so it knows the past better than an executed version does
+  bool has_begun_ = false;  // fixed tasks stand as the first cycle can place them
+  std::optional<temporal::PlanActivity> initial_;  // until it is over
   Outlooks outlooks_;
   engine::DownlinkSchedule told_schedule_;
   engine::MissionOutlook told_outlook_;

@@ -88,7 +88,7 @@ void check_times(const Question& question, Faults& out) {
                       temporal::to_text(question.from) + ", and is not committed");
       }
       // What is fixed at the very beginning starts when the first commit window has ended.
-      const Time fixed = std::max(task.preferred_start, Time{question.network.cycle.commit_window});
+      const Time fixed = std::max(task.preferred_start, question.origin + question.network.cycle.commit_window);
       if (task.fixed && step.start != fixed)
         out.push_back(who + " does not start at its fixed time, " + temporal::to_text(fixed));
       if (step.start < task.opens)

@@ -77,6 +77,7 @@ struct Question {
   /// Otherwise the plan does not say what goes with which downlink, and that is not checked.
   bool downlinks_told = true;
   std::vector<Observation> observations{};
+  temporal::Time origin{0};  ///< of the plan
   temporal::Time now{0};
   temporal::Time from{0};  ///< end of the commit window: what is not committed starts then or later
   double budget = 0;       ///< what is left of it

@@ -37,6 +37,7 @@ std::vector<std::string> faults_of(const model::Network& network, const engine::
   question.downlinks_told = false;
   question.observations = std::move(version.internal);
   question.closed = std::move(version.done);
+  question.origin = checked.plan.origin;
   question.now = now;
   question.from = now + network.cycle.commit_window;
   const auto& budget = network.timelines[network.budget];

@@ -194,6 +194,9 @@ Report Cycle::run(Time now) {
     report.done.push_back(what);
     report.changed = true;
   };
+  // Before the past is folded: what is left of a failed block may have its time there.
+  for (Block& one : blocks_)
+    if (one.failed()) abandon(one, "", report);
   does(Activity::commit, commit(now));
   if (consolidate(now)) report.done.push_back(Activity::consolidate);  // the plan is the same
   forget_over(report);
@@ -315,10 +318,6 @@ bool Cycle::consolidate(Time now) {
 
 // Blocks that are over leave; their requests are done, or wait for another try.
 void Cycle::forget_over(Report& report) {
-  for (Block& one : blocks_) {
-    if (!one.failed()) continue;
-    abandon(one, "", report);
-  }
   std::erase_if(blocks_, [&](const Block& one) {
     if (!one.over()) return false;
     report.changed = true;

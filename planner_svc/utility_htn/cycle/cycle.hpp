@@ -111,7 +111,10 @@ class Cycle {
   bool make_room(std::uint32_t number, temporal::Time from, Report& report);
   bool keep_order(temporal::Time now, Report& report);
   void push(Block& late, temporal::Time from);
+  bool place_rests(std::uint32_t first, temporal::Time from);
   bool shift(Block& late, temporal::Time from);
+  void lift(const Block& late);
+  bool lower(Block& late, temporal::Time from);
   void last_anew(Block& begun) const;
   void take_out(const Block& gone);
   void put_in(const Block& placed);

@@ -95,17 +95,41 @@ void Cycle::drop(const Block& waiting, Report& report) {
   to_schedule_ = true;
 }
 
-// What has begun goes before what has not: where its rest finds no place, others are taken out, the last one first.
+// Puts the rest of a block that has begun where it fits. Where it finds no place beside all others, the rests of all that has begun are
+// placed anew, in the order in which they would go on; and what has not begun gives way, that which comes first before the others, and is
+// scheduled again. What is fixed stands.
 bool Cycle::make_room(std::uint32_t number, Time from, Report& report) {
-  while (!shift(*block(number), from)) {
-    const Block* last = nullptr;
+  while (!shift(*block(number), from) && !place_rests(number, from)) {
+    const Block* next = nullptr;
     for (const Block& one : blocks_)
-      if (!one.begun() && (last == nullptr || one.links.front().start > last->links.front().start))
-        last = &one;
-    if (last == nullptr) return false;
-    drop(*last, report);
+      if (!one.begun() && !network_.tasks[chains_.chains[one.chain].task].fixed &&
+          (next == nullptr || one.links.front().start < next->links.front().start))
+        next = &one;
+    if (next == nullptr) return false;
+    drop(*next, report);
   }
   return true;
+}
+
+// Returns whether the rests of all blocks that have begun find places, that of `first` before the others; else nothing is changed.
+bool Cycle::place_rests(std::uint32_t first, Time from) {
+  const auto rest = [](const Block& one) {
+    return std::ranges::find(one.links, Stage::planned, &Link::stage);
+  };
+  std::vector<std::pair<Time, std::uint32_t>> rests;
+  for (const Block& one : blocks_)
+    if (one.begun() && !one.failed() && rest(one) != one.links.end())
+      rests.emplace_back(one.number == first ? Time::min() : rest(one)->start, one.number);
+  std::ranges::sort(rests);
+  const std::size_t mark = timelines_.mark();
+  const std::vector<Block> before = blocks_;
+  for (const auto& [start, number] : rests) lift(*block(number));
+  const bool fit =
+      std::ranges::all_of(rests, [&](const auto& one) { return lower(*block(one.second), from); });
+  if (fit) return true;
+  timelines_.undo(mark);
+  blocks_ = before;
+  return false;
 }
 
 // What follows a link that is late is late itself, whether or not the cycle repairs conflicts (task push, R98).
@@ -140,8 +164,17 @@ void Cycle::push(Block& late, Time from) {
 
 // Places what is only planned of a block anew, each link as early as it can be.
 bool Cycle::shift(Block& late, Time from) {
+  lift(late);
+  return lower(late, from);
+}
+
+void Cycle::lift(const Block& late) {
   for (std::size_t i = 0; i < late.links.size(); ++i)
     if (late.links[i].stage == Stage::planned) timelines_.remove(task_id(late.number, i));
+}
+
+// From the first link on that finds no place, they stand where they stood.
+bool Cycle::lower(Block& late, Time from) {
   const auto& gaps = chains_.chains[late.chain].links;
   bool fits = true;
   for (std::size_t i = 0; i < late.links.size(); ++i) {

@@ -51,6 +51,7 @@ class SimService : public testing::Test {
     std::vector<v1::CommandAck> acks;
     std::vector<v1::Goal> goals;
     std::vector<v1::Hazard> hazards;
+    std::vector<v1::DataProduct> products;
     std::vector<std::string> observations;  // "us timeline = value"
     temporal::Time end{};
   };
@@ -59,7 +60,7 @@ class SimService : public testing::Test {
   // over.
   Heard fly(const std::map<temporal::Duration, v1::Command>& commands, temporal::Duration outcome_at = 0s,
             std::uint64_t seed = 1) {
-    services::SimRun run({"sim_svc", "exec_svc", "pathplan_svc", "arm_svc"});
+    services::SimRun run({"sim_svc", "exec_svc", "pathplan_svc", "arm_svc", "planner_svc"});
     services::RunSettings settings;
     settings.mission = folder_;
     settings.run_folder = folder_;
@@ -75,6 +76,9 @@ class SimService : public testing::Test {
       executive.at(at, [&sender, &command] { sender.write(command); });
     }
     const auto missions = services::advertise(executive, topics::mission_status);
+    services::Node& planner = run.add("planner_svc");
+    const auto schedules = services::advertise(planner, topics::downlink_schedule);
+    if (schedule_) planner.at(1s, [&] { schedules.write(*schedule_); });
     v1::MissionStatus over;
     over.mission("m");
     over.outcome("achieved");
@@ -111,6 +115,8 @@ class SimService : public testing::Test {
                         [&](const v1::CommandAck& ack) { heard.acks.push_back(ack); });
     services::subscribe(node, topics::goal, [&](const v1::Goal& goal) { heard.goals.push_back(goal); });
     services::subscribe(node, topics::hazard, [&](const v1::Hazard& rock) { heard.hazards.push_back(rock); });
+    services::subscribe(node, topics::data_product,
+                        [&](const v1::DataProduct& product) { heard.products.push_back(product); });
     services::subscribe(node, topics::observation, [&](const v1::Observation& seen) {
       EXPECT_EQ(seen.sampled_us(), node.now().count()) << "said when it happens, not later";
       const v1::TimelineValue& value = seen.observed();
@@ -153,6 +159,7 @@ class SimService : public testing::Test {
   }
 
   std::filesystem::path folder_;
+  std::optional<v1::DownlinkSchedule> schedule_;  // told at 1 s
 };
 
 TEST_F(SimService, ADriveGoesByThePathPlannersWay) {
@@ -216,6 +223,39 @@ TEST_F(SimService, TwoRobotsAreToldApartByTheCommandsRobot) {
   EXPECT_EQ(last.activity(), "b");
   EXPECT_EQ(last.outcome().duration_us(), 30'000'000);
   EXPECT_NEAR(last.outcome().energy_j(), 150, 1e-6);
+}
+
+// A lander with a camera and a radio, in contact all the time.
+TEST_F(SimService, DataGoAsTheDownlinkScheduleSaysAndTheirFatesAreTold) {
+  write(
+      "mission.yaml",
+      "windows: [{timeline: earth.window, open: [[0, 9000]]}]\n"
+      "simulation:\n  robots:\n    - name: lander\n      data: {}\n      components:\n"
+      "        - {name: radio, type: direct_radio, rate_byte_s: 100, light_time_s: 300}\n"
+      "        - {name: camera, type: survey_camera, duration_noise: 0, panorama: {duration_s: 10}, "
+      "products: {panorama: "
+      "{early: {tier: decisional, bytes: 1000, utility: [0, 0.5]}, late: {tier: residual, bytes: 500}}}}\n");
+  write("scenarios/nominal.yaml", "duration_s: 2000\n");
+  schedule_.emplace();
+  schedule_->limited(true);
+  schedule_->downlinks().resize(1);
+  schedule_->downlinks()[0].activity("d");
+  schedule_->downlinks()[0].products().resize(1);
+  schedule_->downlinks()[0].products()[0].id("late");
+  const Heard heard =
+      fly({{5s, command("p", "camera", "panorama", {})}, {50s, command("d", "radio", "send", {})}}, 600s);
+  EXPECT_THAT(stages(heard, "d"), ElementsAre(v1::STAGE_ACCEPTED, v1::STAGE_COMPLETED));
+  ASSERT_EQ(heard.products.size(), 4u);
+  EXPECT_EQ(heard.products[0].id(), "early");
+  EXPECT_EQ(heard.products[0].product_kind(), "early");
+  EXPECT_EQ(heard.products[0].source(), "p");
+  EXPECT_EQ(heard.products[0].tier(), v1::TIER_DECISIONAL);
+  EXPECT_EQ(heard.products[0].created_us(), 15'000'000);
+  EXPECT_EQ(heard.products[0].utility(), (std::vector<double>{0, 0.5}));
+  EXPECT_EQ(heard.products[2].id(), "late");
+  EXPECT_EQ(heard.products[2].fate(), v1::PRODUCT_SENT);
+  EXPECT_EQ(heard.products[3].id(), "late");
+  EXPECT_EQ(heard.products[3].fate(), v1::PRODUCT_RECEIVED);
 }
 
 TEST_F(SimService, UploadsAndRecallsTheScenariosGoals) {
@@ -305,6 +345,18 @@ TEST(WorldFile, ComesBackAsItWas) {
                          {1, 2, 3}, {0, 128, 255}};
   rover.components["drill"] = {{"state", temporal::state("in", {"hole"})}, {"number:depth", 20.5}};
   memory.robots["lander"] = {};
+  world::RobotMemory& digger = memory.robots["digger"];
+  digger.temperatures_k = {{"arm", 151.25}, {"dish", 90}};
+  digger.data.products = {{"quakes-2",
+                           "quakes",
+                           "digger",
+                           "park#3",
+                           6000000,
+                           world::Tier::decisional,
+                           world::Fate::sent,
+                           temporal::seconds(4),
+                           {0, 0.5}}};
+  digger.data.made = {{"quakes", 2}};
   const auto file = std::filesystem::path(testing::TempDir()) / "roci_world_file";
   std::filesystem::remove(file);
   EXPECT_FALSE(WorldFile(file).read().has_value());
@@ -314,9 +366,14 @@ TEST(WorldFile, ComesBackAsItWas) {
   EXPECT_EQ(to_text(*back), to_text(memory));
   EXPECT_EQ(back->robots.at("rover").images, rover.images);
   EXPECT_EQ(back->robots.at("rover").components, rover.components);
+  EXPECT_EQ(back->robots.at("digger").temperatures_k, digger.temperatures_k);
+  EXPECT_EQ(back->robots.at("digger").data.products, digger.data.products);
+  EXPECT_EQ(back->robots.at("digger").data.made, digger.data.made);
   EXPECT_FALSE(back->robots.at("lander").pose.has_value());
   for (const char* damaged :
-       {"", "{", "[]", "{\"at_us\":1}", "{\"at_us\":1,\"samples\":{},\"robots\":{\"rover\":{}}}"})
+       {"", "{", "[]", "{\"at_us\":1}", "{\"at_us\":1,\"samples\":{},\"robots\":{\"rover\":{}}}",
+        "{\"at_us\":1,\"samples\":{},\"robots\":{\"r\":{\"images\":{},\"components\":{},\"data\":{\"made\":{}"
+        ",\"products\":[{}]}}}}"})
     EXPECT_FALSE(world_memory_from(damaged).has_value()) << damaged;
   std::filesystem::remove(file);
 }

@@ -66,6 +66,13 @@ double last_number(const Outputs& outputs, const std::string& timeline) {
   return std::get<double>(last_value(outputs, timeline).value());
 }
 
+std::vector<world::Product> products_in(const Outputs& outputs) {
+  std::vector<world::Product> out;
+  for (const world::Output& output : outputs)
+    if (const auto* product = std::get_if<world::Product>(&output)) out.push_back(*product);
+  return out;
+}
+
 void append(Outputs& to, Outputs more) {
   to.insert(to.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
 }

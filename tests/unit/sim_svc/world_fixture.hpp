@@ -61,6 +61,8 @@ services::owner::Request drive_to(const std::string& activity, const std::string
 
 std::optional<temporal::Value> last_value(const world::Outputs&, const std::string& timeline);
 double last_number(const world::Outputs&, const std::string& timeline);
+/// Returns what was said of data products, in order.
+std::vector<world::Product> products_in(const world::Outputs&);
 void append(world::Outputs& to, world::Outputs more);
 
 /// A world with everything it ever said, and an owner's ledger before it.

@@ -79,6 +79,18 @@ TEST(SamplingArm, RefusesWhatMakesNoSense) {
   EXPECT_EQ(run.state("lander.sample"), (State{"held", {"0", "0"}}));
 }
 
+TEST(SamplingArm, PreparedAnewItHasAnEmptyTool) {
+  SamplerFlight run = prepared();
+  run.arm("excavate", kSite);
+  run.arm("collect", kTarget);
+  EXPECT_EQ(run.arm("prepare"), "done");
+  EXPECT_EQ(run.state("lander.sample"), (State{"none", {}}));
+  EXPECT_EQ(run.arm("collect", {{"site", "0"}, {"target", "1"}}), "done");
+  EXPECT_EQ(run.arm("transport"), "done");
+  EXPECT_EQ(run.arm("prepare"), "done");
+  EXPECT_EQ(run.state("lander.sample"), (State{"delivered", {"0", "1"}})) << "the inlet is not the tool";
+}
+
 TEST(SamplingArm, MovesItsJointsToWhereItWorks) {
   Sampler sampler;
   sampler.arm.sites["0"].joints = {0, 0.5, -1, 0, 0};
@@ -171,6 +183,25 @@ TEST(SamplingArm, ATrenchThatCollapsesUnderTheCutterTakesLonger) {
   run.pass(20000);
   EXPECT_EQ(run.code(run.newest), "done");
   EXPECT_NEAR(run.seconds_taken(), 6000 + 7000, 1e-3);
+}
+
+TEST(SamplingArm, ACutterJamsAfterAsMuchCuttingWhateverCollapses) {
+  Sampler sampler;
+  sampler.arm.sites["0"].jams_per_h = 1;
+  int jams = 0;
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    SamplerFlight calm = prepared(sampler, seed);
+    if (calm.arm("excavate", kSite) != "stuck" || calm.seconds_taken() < 500) continue;
+    SamplerFlight shaken = prepared(sampler, seed);
+    shaken.start("arm", "excavate", kSite);
+    shaken.pass(300);
+    shaken.disturb(shaken.now, ComponentMishap{"lander", TrenchCollapse{"0", 0.5}});
+    shaken.pass(20000);
+    EXPECT_EQ(shaken.code(shaken.newest), "stuck");
+    EXPECT_NEAR(shaken.seconds_taken(), calm.seconds_taken(), 1e-3) << "seed " << seed;
+    ++jams;
+  }
+  EXPECT_GT(jams, 0);
 }
 
 TEST(SamplingArm, ACollapseNeedsASiteThatIsThere) {

@@ -120,6 +120,16 @@ TEST(WorldEnergy, AFlatBatteryFailsWhatRunsAndWhatComes) {
   EXPECT_EQ(run.code("i"), "battery-flat");
 }
 
+TEST(WorldEnergy, ADropLeavesNoMoreThanItSays) {
+  Flight run(flat_setup());
+  run.disturb(seconds(10), EnergyDrop{"rover", 40000});
+  run.advance(seconds(70));
+  EXPECT_NEAR(last_number(run.said, "rover.battery"), 40000 - 50 * 14, 15 * 14);
+  run.disturb(seconds(80), EnergyDrop{"rover", 400000});
+  run.advance(seconds(140));
+  EXPECT_LT(last_number(run.said, "rover.battery"), 40000) << "it gives nothing";
+}
+
 TEST(WorldEnergy, LossAtOnceIsNoticed) {
   Flight run(flat_setup());
   run.drive(seconds(1), "d", "there", 100, 20);

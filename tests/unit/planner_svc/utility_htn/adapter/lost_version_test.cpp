@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "planner_svc/engine/version_exchange.hpp"
 #include "planner_svc/utility_htn/adapter/utility_engine.hpp"
 #include "tests/unit/planner_svc/utility_htn/cycle/toy_network.hpp"
 
@@ -18,21 +19,22 @@ class LostVersion : public ::testing::Test {
   StepInputs at(Time now) {
     StepInputs out;
     out.now = now;
-    out.last_version = last_version_;
     return out;
   }
 
   StepInputs receipt(Time now, std::uint32_t version, std::uint32_t refused = 0) {
-    StepInputs out = at(now);
-    out.receipt = engine::Receipt{version, refused, "", "", true};
-    return out;
+    exchange_.hear({version, refused, "", "", true});
+    return at(now);
   }
 
   // Returns the version that the step's change starts from; nothing if there is none.
-  std::optional<std::uint32_t> base_after(const StepInputs& inputs) {
+  std::optional<std::uint32_t> base_after(StepInputs inputs) {
+    exchange_.give(inputs);
     const StepOutput out = engine_.step(inputs);
     if (!out.delta) return std::nullopt;
-    last_version_ = out.delta->added.version;
+    temporal::FlexiblePlan next;
+    EXPECT_EQ(exchange_.apply(*out.delta, next), "");
+    exchange_.sent(next);
     return out.delta->from_version;
   }
 
@@ -46,7 +48,7 @@ class LostVersion : public ::testing::Test {
   }
 
   UtilityEngine engine_{{"utility_htn", "lander", "", {}}, testing::toy_network()};
-  std::uint32_t last_version_ = 0;
+  engine::VersionExchange exchange_;
 };
 
 TEST_F(LostVersion, IsSentAnewAgainstTheOneThatTheExecutiveHas) {
@@ -76,10 +78,51 @@ TEST_F(LostVersion, AReceiptThatComesLateSaysWhatTheExecutiveHas) {
   EXPECT_GE(next.value_or(2), 2U);
 }
 
+// It takes the first of many, when it is no longer busy, and refuses the others.
+TEST_F(LostVersion, OfManyWithoutAnAnswerAnyMayBeTaken) {
+  ASSERT_EQ(base_after(beginning()), 0U);
+  base_after(receipt(1s, 1));
+  for (int i = 1; i <= 6; ++i) ASSERT_EQ(base_after(at(i * 10s)), 1U);
+  base_after(receipt(61s, 2, 7));
+  for (int i = 7; i <= 9; ++i) EXPECT_GE(base_after(at(i * 10s)).value_or(2), 2U);
+}
+
+TEST_F(LostVersion, AReceiptFromBeforeThePlanWasTakenChangesNothing) {
+  ASSERT_EQ(base_after(beginning()), 0U);
+  base_after(receipt(1s, 0));
+  base_after(receipt(2s, 1));
+  EXPECT_EQ(base_after(at(10s)), 1U);
+}
+
+TEST_F(LostVersion, AfterAPlanThatEndedTheNextOneComesWhole) {
+  ASSERT_EQ(base_after(beginning()), 0U);
+  base_after(receipt(1s, 1));
+  ASSERT_EQ(base_after(at(10s)), 1U);
+  base_after(receipt(12s, 0, 2));  // it had ended, and so it refused the change
+  EXPECT_EQ(base_after(at(20s)).value_or(0), 0U);
+  EXPECT_EQ(base_after(at(30s)).value_or(0), 0U);
+}
+
+TEST_F(LostVersion, WhatIsRefusedIsSentAgainAfterAWhile) {
+  ASSERT_EQ(base_after(beginning()), 0U);
+  base_after(receipt(1s, 1));
+  ASSERT_EQ(base_after(at(10s)), 1U);
+  base_after(receipt(11s, 1, 2));
+  EXPECT_EQ(base_after(at(20s)), std::nullopt);
+  EXPECT_EQ(base_after(at(40s)), 1U);
+  base_after(receipt(41s, 3));
+  EXPECT_EQ(base_after(at(50s)), std::nullopt);
+}
+
 TEST_F(LostVersion, StepsTellWhatTheirCycleDid) {
-  EXPECT_THAT(engine_.step(beginning()).account.parts, ElementsAre("schedule"));
-  last_version_ = 1;
-  engine_.step(receipt(1s, 1));
+  StepInputs first = beginning();
+  exchange_.give(first);
+  const StepOutput whole = engine_.step(first);
+  EXPECT_THAT(whole.account.parts, ElementsAre("schedule"));
+  temporal::FlexiblePlan plan;
+  ASSERT_EQ(exchange_.apply(*whole.delta, plan), "");
+  exchange_.sent(plan);
+  base_after(receipt(1s, 1));
   const StepOutput second = engine_.step(at(10s));
   ASSERT_FALSE(second.account.parts.empty());
   EXPECT_EQ(second.account.parts.front(), "commit");

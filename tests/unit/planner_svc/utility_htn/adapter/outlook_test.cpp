@@ -184,13 +184,16 @@ TEST_F(OutlookTest, WithoutARateNothingIsScheduled) {
 }
 
 TEST_F(OutlookTest, ACycleInWhichNothingHasChangedTellsNothing) {
-  start();
-  battery_.reset();
+  model::Network network = imaging_lander();
+  for (model::Task& task : network.tasks) task.opens = std::max(task.opens, temporal::seconds(3600));
+  start(std::move(network));
   const int told = told_;
   EXPECT_EQ(told, 2);
-  now_ += temporal::seconds(1);
-  step();  // no cycle is due
+  for (int cycle = 0; cycle < 5; ++cycle) advance_to(now_ + temporal::seconds(60));
   EXPECT_EQ(told_, told);
+  hear(picture("dp-1", "nobody#1.0"));  // between two cycles
+  advance_to(now_ + temporal::seconds(60));
+  EXPECT_EQ(told_, told + 2);
 }
 
 TEST_F(OutlookTest, DataWithoutAWorthOfTheirOwnTakeThatOfTheirProduct) {
@@ -239,10 +242,16 @@ TEST_F(OutlookTest, EnergyIsForeseenAtTheEndOfEachTaskWithMoreAndLessThanPredict
   ASSERT_GT(outlook_.energy.size(), 3U);
   EXPECT_EQ(outlook_.energy.front().at, now_);
   EXPECT_EQ(outlook_.energy.front().predicted_j, 600000);
+  std::size_t ends = 0;
+  for (const engine::EnergyPoint& point : outlook_.energy) ends += point.activity.empty() ? 0 : 1;
+  EXPECT_EQ(ends, 9U) << "each of the nine tasks";
   for (std::size_t i = 1; i < outlook_.energy.size(); ++i) {
     const engine::EnergyPoint& point = outlook_.energy[i];
     const double spent = 600000 - point.predicted_j;
     EXPECT_GT(point.at, outlook_.energy[i - 1].at);
+    if (point.activity.empty()) {
+      EXPECT_EQ(point.predicted_j, outlook_.energy[i - 1].predicted_j) << "nothing is spent between tasks";
+    }
     EXPECT_THAT(point.worst_j, DoubleNear(600000 - 1.1 * spent, 1e-6));
     EXPECT_THAT(point.best_j, DoubleNear(600000 - 0.9 * spent, 1e-6));
   }

@@ -1,0 +1,58 @@
+// What engine and executive know of each other's versions, with messages between them that come late, twice or not at all (R66, R81).
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "planner_svc/engine/plan_history.hpp"
+#include "planner_svc/engine/stepped_engine.hpp"
+
+namespace roci::planner::engine {
+
+/// Stands between an engine that plans all the time and what is heard of the executive. It sees to it that the engine goes on from the
+/// version that is executed: one that is neither the newest that this engine sent nor known to it already is given to it whole.
+class VersionExchange {
+ public:
+  /// Takes a plan of which the executive tells. Returns whether it is news: none that is known, and not older than the newest receipt.
+  /// Another plan may have the number of one that was sent: a process that died had sent it.
+  bool take(const temporal::FlexiblePlan& executed);
+  /// Takes that this number was used.
+  void note(std::uint32_t version);
+  void hear(const Receipt& receipt);
+
+  /// Returns whether the engine has something to hear of this; a refusal by its own checker is none, since it would ask again and again.
+  bool has_news() const;
+  /// Fills in receipt, executed version and highest number, and takes them as heard.
+  void give(StepInputs& inputs);
+  /// Takes that the engine is another one, which knows nothing.
+  void engine_is_new();
+
+  /// The plan that the delta makes, in `next`. Returns what is wrong with it, empty if nothing is.
+  std::string apply(const temporal::PlanDelta& delta, temporal::FlexiblePlan& next) const;
+  void sent(temporal::FlexiblePlan plan);
+  /// The engine's checker has refused this version: the engine hears it with its next step.
+  void refuse(std::uint32_t version, const std::string& reason);
+
+  /// Returns the version that is executed by the newest receipt; null: none, or it is not known yet.
+  const temporal::FlexiblePlan* executed() const;
+  const temporal::FlexiblePlan* version(std::uint32_t number) const { return history_.version(number); }
+  const std::optional<Receipt>& receipt() const { return newest_; }
+  std::uint32_t last_version() const { return last_version_; }
+
+ private:
+  bool is_of_use() const;
+
+  PlanHistory history_;
+  std::optional<Receipt> newest_;
+  std::optional<Receipt> refused_;  // by the checker: version and reason
+  bool owes_ = false;               // the engine knows nothing of the executed version
+  std::uint32_t last_executed_ = 0;
+  bool due_ = false;  // the receipt was not given yet
+  std::uint32_t last_version_ = 0;
+  std::uint32_t engine_has_ = 0;   // executed, as the engine knows
+  std::uint32_t engine_sent_ = 0;  // its newest
+};
+
+}  // namespace roci::planner::engine

@@ -1,0 +1,11 @@
+#pragma once
+
+namespace roci::sim {
+
+/// Is callable with whatever one of its cases takes, for std::visit.
+template <class... Cases>
+struct Match : Cases... {
+  using Cases::operator()...;
+};
+
+}  // namespace roci::sim
