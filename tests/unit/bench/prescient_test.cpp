@@ -163,5 +163,23 @@ TEST(BaseDomain, ACollectionThatCameToNothingUsesUpNoSample) {
   EXPECT_EQ(out.replanned, 2U);
 }
 
+/// Each of these fails once so that the engine plans anew; everything else goes as the network has it.
+class BaseDomainWith : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(BaseDomainWith, OneFailureCostsNoMoreThanASampleOfCompressedData) {
+  Setting setting = base_setting();
+  setting.only_failure = {GetParam(), Resolution::replanning};
+  setting.without.insert("discovery");
+  const Experiment experiment(base_domain(), setting);
+  const Flown out = experiment.flown(Strategy::replanning, 0, 1);
+  EXPECT_THAT(out.faults, ::testing::IsEmpty());
+  EXPECT_EQ(out.replanned, 1U);
+  EXPECT_GE(out.utility[0], 8.55 - 0.4 - 1e-9);
+}
+
+INSTANTIATE_TEST_SUITE_P(Failing, BaseDomainWith,
+                         ::testing::Values("excavate_site_1", "collect_sample_1_0", "transport_sample",
+                                           "downlink_raw"));
+
 }  // namespace
 }  // namespace roci::bench::europa
