@@ -63,7 +63,9 @@ Flown Experiment::flown(Strategy strategy, double bias, std::uint64_t seed,
                 .costs = setting_.costs,
                 .until = std::min(until, network.cycle.plan_end),
                 .succeeded = {},
-                .processor_time = processor_time};
+                .processor_time = processor_time,
+                .look_at = setting_.look_at,
+                .look_for = setting_.look_for};
   flight.fates = [&](const std::string& task, std::uint32_t execution) {
     return fate_of(bias, seed, task, execution);
   };

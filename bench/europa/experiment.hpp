@@ -29,6 +29,8 @@ struct Setting {
   std::set<std::string> without;
   /// Only the first execution of this task fails, so; everything else goes as the network has it (figure 5).
   std::optional<std::pair<std::string, Resolution>> only_failure;
+  std::optional<temporal::Time> look_at;  ///< see Flight
+  std::vector<std::string> look_for;
   bool robust = false;     ///< plans are judged by the worst of more, less and predicted energy
   bool downlinks = false;  ///< the Downlink Manager is asked
 };

@@ -57,6 +57,18 @@ json energy_of(const Energy& energy) {
           {"fixed", energy.fixed}};
 }
 
+json json_of(const Seen& seen) {
+  json out{{"now_s", temporal::to_seconds(seen.now)}};
+  for (const auto& corner : seen.projection)
+    out["projection"].push_back({temporal::to_seconds(corner.time), corner.value});
+  for (const auto& [task, intervals] : seen.valid) {
+    out["valid"][task] = json::array();
+    for (const auto& one : intervals)
+      out["valid"][task].push_back({temporal::to_seconds(one.earliest), temporal::to_seconds(one.latest)});
+  }
+  return out;
+}
+
 json summary_of(const Flown& flown, bool executions) {
   json course = json::array();
   for (const auto& point : flown.course) course.push_back({point.spent, point.utility[0], point.chain});
@@ -73,6 +85,7 @@ json summary_of(const Flown& flown, bool executions) {
            {"end_s", temporal::to_seconds(flown.end)},
            {"energy", energy_of(flown.energy)},
            {"course", course}};
+  if (flown.seen) out["seen"] = json_of(*flown.seen);
   if (!executions) return out;
   out["decisions"] = flown.decisions;
   for (const Execution& one : flown.executions)
@@ -204,6 +217,10 @@ int main(int argc, char** argv) {
   app.add_option("--failure", failure,
                  "TASK=none|flexible|replanning|ground: only the first execution of this task fails, and "
                  "energies are the model's");
+  std::optional<double> look_days;
+  std::vector<std::string> look_for;
+  app.add_option("--look-days", look_days, "tells what is projected then")->check(CLI::NonNegativeNumber);
+  app.add_option("--look-for", look_for, "and when these tasks could start");
   CLI11_PARSE(app, argc, argv);
   try {
     const auto network =
@@ -219,6 +236,8 @@ int main(int argc, char** argv) {
     setting.robust = robust;
     setting.downlinks = downlinks;
     wanted.prescient = !no_prescient;
+    if (look_days) setting.look_at = roci::temporal::seconds(86400 * *look_days);
+    setting.look_for = look_for;
     if (!failure.empty()) setting.only_failure = failure_of(failure);
     const Experiment experiment(network, setting);
     json out{{"network", network_file},

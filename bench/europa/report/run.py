@@ -32,7 +32,7 @@ OTHERS = [("no repair", "0", ["--without", "repair"]), ("no optimize", "0", ["--
 MISSION = "missions/europa/network-rsm1.yaml"
 SIZES, DAYS = [(3, 3), (5, 5), (10, 5), (30, 10)], "2"  # sites and targets; days of mission time
 FAILING = "transport_sample"  # whose first execution fails in figure 5
-FIGURES = {"mission": ["--strategy", "replan"],
+FIGURES = {"mission": ["--strategy", "replan", "--look-days", "6", "--look-for", "mono_panorama", "downlink", "discard_sample"],
            **{f"{strategy} {kind}": ["--strategy", strategy, "--failure", f"{FAILING}={kind}"]
               for strategy, kind in (("replan", "none"), ("static", "flexible"), ("ground", "flexible"), ("fe", "flexible"),
                                      ("replan", "replanning"))}}
