@@ -75,14 +75,14 @@ void Cycle::begun(TaskId task, Time at) {
   Link* const one = link(task);
   if (one == nullptr || !waits(*one)) return;
   to_optimize_ |= one->start != at;
-  *one = {one->task, one->planned, at, at + duration(one->task), Stage::running};
+  *one = {one->task, one->planned, at, at + length(*block(block_of(task)), link_of(task)), Stage::running};
   timelines_.move(task, at, one->end);
 }
 
 void Cycle::tried_again(TaskId task, Time at) {
   Link* const one = link(task);
   if (one == nullptr || one->stage != Stage::running) return;
-  one->end = std::max(one->start, at) + duration(one->task);
+  one->end = std::max(one->start, at) + length(*block(block_of(task)), link_of(task));
   timelines_.move(task, one->start, one->end);
   to_optimize_ = true;
 }
@@ -373,7 +373,8 @@ void Cycle::fit_downlinks() {
   for (Block& one : blocks_)
     for (std::size_t i = 0; i < one.links.size(); ++i) {
       Link& each = one.links[i];
-      if (each.stage != Stage::planned || !one.begun() || each.end - each.start == length(one, i)) continue;
+      if (each.stage != Stage::planned || !one.begun() || one.failed()) continue;
+      if (each.end - each.start == length(one, i)) continue;
       each.end = each.start + length(one, i);
       timelines_.move(task_id(one.number, i), each.start, each.end);
       to_optimize_ = true;
