@@ -28,6 +28,7 @@ using temporal::Time;
 using world::Answer;
 using world::Failure;
 using world::Image;
+using world::Match;
 using world::MotionWanted;
 using world::Observed;
 using world::PathWanted;

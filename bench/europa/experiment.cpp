@@ -33,6 +33,10 @@ Setting read_setting(const std::filesystem::path& file) {
 
 Fate Experiment::fate_of(double bias, std::uint64_t seed, const std::string& task,
                          std::uint32_t execution) const {
+  if (setting_.only_failure) {
+    const auto& [failing, how] = *setting_.only_failure;
+    return {.failure = task == failing && execution == 0 ? how : Resolution::none};
+  }
   Fate out = fate(TaskWorld{seed, bias, setting_.noise, setting_.failures}, task, execution);
   if (out.failure == Resolution::flexible && setting_.without.contains("retry"))
     out.failure = Resolution::replanning;
@@ -40,7 +44,7 @@ Fate Experiment::fate_of(double bias, std::uint64_t seed, const std::string& tas
 }
 
 Flown Experiment::flown(Strategy strategy, double bias, std::uint64_t seed,
-                        const std::function<double()>& processor_time) const {
+                        const std::function<double()>& processor_time, temporal::Time until) const {
   planner::utility_htn::cycle::Settings settings;
   if (strategy != Strategy::replanning)
     settings = {.repairs = false, .optimizes = false, .schedules_again = false};
@@ -57,9 +61,11 @@ Flown Experiment::flown(Strategy strategy, double bias, std::uint64_t seed,
                 .fates = {},
                 .strategy = strategy,
                 .costs = setting_.costs,
-                .until = network.cycle.plan_end,
+                .until = std::min(until, network.cycle.plan_end),
                 .succeeded = {},
-                .processor_time = processor_time};
+                .processor_time = processor_time,
+                .look_at = setting_.look_at,
+                .look_for = setting_.look_for};
   flight.fates = [&](const std::string& task, std::uint32_t execution) {
     return fate_of(bias, seed, task, execution);
   };

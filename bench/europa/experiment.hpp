@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bench/europa/prescient.hpp"
@@ -26,6 +27,10 @@ struct Setting {
   double discovery_utility = 0;
   /// What replanning does without: "retry" (what it resolves is planned anew), "repair", "optimize", "learning", "discovery".
   std::set<std::string> without;
+  /// Only the first execution of this task fails, so; everything else goes as the network has it (figure 5).
+  std::optional<std::pair<std::string, Resolution>> only_failure;
+  std::optional<temporal::Time> look_at;  ///< see Flight
+  std::vector<std::string> look_for;
   bool robust = false;     ///< plans are judged by the worst of more, less and predicted energy
   bool downlinks = false;  ///< the Downlink Manager is asked
 };
@@ -39,8 +44,10 @@ class Experiment {
   Experiment(const planner::utility_htn::model::Network& network, const Setting& setting)
       : network_(network), setting_(setting) {}
 
+  /// Flies until `until`, or the end of the plan if that is sooner; see Flight::processor_time.
   Flown flown(Strategy strategy, double bias, std::uint64_t seed,
-              const std::function<double()>& processor_time = {}) const;
+              const std::function<double()>& processor_time = {},
+              temporal::Time until = temporal::no_bound) const;
 
   /// Flies so that everything goes as the network has it, on a battery that bears the bias.
   Flown without_failures(double bias) const;

@@ -36,11 +36,37 @@ constexpr struct {
                    {Strategy::flexible_execution, "fe"},
                    {Strategy::replanning, "replan"}};
 
+// Reads "TASK=KIND".
+std::pair<std::string, Resolution> failure_of(const std::string& text) {
+  constexpr std::pair<const char*, Resolution> kKinds[] = {{"none", Resolution::none},
+                                                           {"flexible", Resolution::flexible},
+                                                           {"replanning", Resolution::replanning},
+                                                           {"ground", Resolution::ground}};
+  const std::size_t mark = text.find('=');
+  const std::string kind = mark == std::string::npos ? "" : text.substr(mark + 1);
+  for (const auto& [name, resolution] : kKinds)
+    if (kind == name) return {text.substr(0, mark), resolution};
+  throw std::invalid_argument(
+      "--failure is TASK=none, TASK=flexible, TASK=replanning or TASK=ground, and not " + text);
+}
+
 json energy_of(const Energy& energy) {
   return {{"completed", energy.completed},
           {"recovering", energy.recovering},
           {"broken_off", energy.broken_off},
           {"fixed", energy.fixed}};
+}
+
+json json_of(const Seen& seen) {
+  json out{{"now_s", temporal::to_seconds(seen.now)}};
+  for (const auto& corner : seen.projection)
+    out["projection"].push_back({temporal::to_seconds(corner.time), corner.value});
+  for (const auto& [task, intervals] : seen.valid) {
+    out["valid"][task] = json::array();
+    for (const auto& one : intervals)
+      out["valid"][task].push_back({temporal::to_seconds(one.earliest), temporal::to_seconds(one.latest)});
+  }
+  return out;
 }
 
 json summary_of(const Flown& flown, bool executions) {
@@ -59,6 +85,7 @@ json summary_of(const Flown& flown, bool executions) {
            {"end_s", temporal::to_seconds(flown.end)},
            {"energy", energy_of(flown.energy)},
            {"course", course}};
+  if (flown.seen) out["seen"] = json_of(*flown.seen);
   if (!executions) return out;
   out["decisions"] = flown.decisions;
   for (const Execution& one : flown.executions)
@@ -186,6 +213,14 @@ int main(int argc, char** argv) {
   app.add_flag("--downlinks", downlinks, "the Downlink Manager is asked");
   app.add_flag("--no-prescient", no_prescient, "leaves out what a planner brings home that knows everything");
   app.add_flag("--executions", wanted.executions, "tells every attempt of every task");
+  std::string failure;
+  app.add_option("--failure", failure,
+                 "TASK=none|flexible|replanning|ground: only the first execution of this task fails, and "
+                 "energies are the model's");
+  std::optional<double> look_days;
+  std::vector<std::string> look_for;
+  app.add_option("--look-days", look_days, "tells what is projected then")->check(CLI::NonNegativeNumber);
+  app.add_option("--look-for", look_for, "and when these tasks could start");
   CLI11_PARSE(app, argc, argv);
   try {
     const auto network =
@@ -201,6 +236,9 @@ int main(int argc, char** argv) {
     setting.robust = robust;
     setting.downlinks = downlinks;
     wanted.prescient = !no_prescient;
+    if (look_days) setting.look_at = roci::temporal::seconds(86400 * *look_days);
+    setting.look_for = look_for;
+    if (!failure.empty()) setting.only_failure = failure_of(failure);
     const Experiment experiment(network, setting);
     json out{{"network", network_file},
              {"runs", setting.runs},

@@ -82,6 +82,7 @@ class TaskFlight {
       if (timeline.reported) observe(timeline, timeline.initial);
     while (out_.ended_by.empty()) {
       turn();
+      look();
       if (out_.ended_by.empty()) advance(next_time());
     }
     out_.end = now_;
@@ -108,6 +109,13 @@ class TaskFlight {
     const temporal::Value seen = adapter::value_of(timeline, value);
     heard_.observations.push_back({timeline.name, seen, now_});
     inputs_.observations.push_back({timeline.name, seen});
+  }
+
+  void look() {
+    if (!flight_.look_at || now_ < *flight_.look_at || out_.seen) return;
+    std::map<temporal::timelines::Index, double> values = world_;
+    values[flight_.network.budget] = left_;
+    out_.seen = seen({flight_.network, plan_, progress_, std::move(values), now_}, flight_.look_for);
   }
 
   // Engine and executive in turn, until both have said all that there is to say at this time.
@@ -374,8 +382,8 @@ class TaskFlight {
       ++out_.replanned;
       resolved_.insert(task.id);
       recovering_ += spend(flight_.costs.replanning_j);
-      // Retries would not help: the executive gives up, and the engine plans anew.
-      return task.control.retries > 0 ? CommandStage::rejected : CommandStage::failed;
+      // What its owner has given up the executive does not try again: the chain is broken off, and the engine plans anew.
+      return CommandStage::cancelled;
     } else {
       ++out_.by_ground;
       recovering_ += spend(flight_.costs.ground_j);

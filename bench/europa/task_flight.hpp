@@ -4,9 +4,11 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "bench/europa/projection.hpp"
 #include "bench/europa/task_world.hpp"
 #include "core/temporal/rank_vector.hpp"
 #include "planner_svc/engine/stepped_engine.hpp"
@@ -39,6 +41,9 @@ struct Flight {
   std::function<void(const std::string& task)> succeeded{};
   /// Returns seconds of the thread's processor time; where it is given, Flown tells what each step took.
   std::function<double()> processor_time{};
+  /// Then Flown tells what is projected, and when `look_for` could start.
+  std::optional<temporal::Time> look_at{};
+  std::vector<std::string> look_for{};
 };
 
 /// Is the utility that was reached when so much was spent (figures 10 and 11).
@@ -95,6 +100,7 @@ struct Flown {
   Energy energy;
   std::uint64_t decisions = 0;    ///< hash of all versions that came: equal ones mean equal decisions
   std::vector<EngineStep> steps;  ///< of the engine, if there is a processor_time
+  std::optional<Seen> seen;       ///< at the first cycle from Flight::look_at on
   std::vector<double> events;     ///< seconds that each step of the executive took, likewise
 };
 

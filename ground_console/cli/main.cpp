@@ -223,6 +223,8 @@ void add_outlook_verbs(CLI::App& app, Line& line) {
       "Which data go to Earth with which downlink, what is left out, and why");
   add("utility", Subject::utility, "What the chains of the plan and all data are worth, rank by rank");
   add("energy", Subject::energy, "The energy at the end of each planned task, with worst and best case");
+  add("chains", Subject::chains,
+      "The whole mission over time: chains of tasks that were done and that are planned");
   add("subway", Subject::subway, "The science subway map: sites, targets, outcomes, and which is next");
 }
 

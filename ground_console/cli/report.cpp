@@ -1,6 +1,7 @@
 #include "ground_console/cli/report.hpp"
 
 #include <algorithm>
+#include <array>
 #include <nlohmann/json.hpp>
 
 #include "ground_console/cli/plan_table.hpp"
@@ -109,6 +110,21 @@ json status_json(const lib::MissionView& view) {
   return out;
 }
 
+// What the activity is foreseen to do to a timeline: a rate is per second and runs while it does.
+json impact_json(const v1::Impact& impact) {
+  static constexpr std::array<const char*, 3> kinds{"assign", "delta", "rate"};
+  static constexpr std::array<const char*, 3> moments{"start", "end", "during"};
+  json out{{"timeline", impact.timeline()},
+           {"kind", kinds.at(std::min<std::size_t>(impact.kind(), 2))},
+           {"at", moments.at(std::min<std::size_t>(impact.moment(), 2))}};
+  if (impact.amount().kind() == v1::VALUE_NUMBER) {
+    out["amount"] = impact.amount().number();
+  } else {
+    out["amount"] = lib::value_text(impact.amount());
+  }
+  return out;
+}
+
 json plan_json(const lib::MissionView& view) {
   if (!view.plan()) return nullptr;
   json out{
@@ -120,9 +136,12 @@ json plan_json(const lib::MissionView& view) {
                {"planned_start_us", planned_start_us(*view.plan(), activity)},
                {"duration_us", activity.duration_lower_us()},
                {"arguments", json::object()},
+               {"impacts", json::array()},
+               {"utility", activity.utility()},
                {"older_values", stands_on_older_values(view, activity)}};
     for (const v1::Property& argument : arguments_of(activity))
       entry["arguments"][argument.name()] = argument.value();
+    for (const v1::Impact& impact : activity.impacts()) entry["impacts"].push_back(impact_json(impact));
     if (const v1::StepStatus* step = view.step(activity.id())) {
       entry["state"] = lib::name_of(step->state());
       entry["started_us"] = step->started_us();

@@ -230,7 +230,6 @@ void DirectRadio::settle(Time now, world::Body& body) {
   const auto warm = body.thermal->ready_at(settings_.zone, now);
   const bool was_warm = run_->warm && *run_->warm <= now;
   if (warm && was_warm) return;
-  if (warm == now) run_->look_at = now;
   run_->warm = warm;
 }
 

@@ -30,8 +30,8 @@ struct DirectRadioSettings {
   double waste_share = 0.3;  ///< of what it draws, left as heat in its zone
   double duration_noise = 0.05;
   double duration_factor = 1;
-  double session_s =
-      0;  ///< a downlink that no schedule names lasts so long at most; 0: until its step must end
+  /// A downlink that no schedule names lasts so long at most; 0: until its step must end.
+  double session_s = 0;
   double light_time_s = 0;  ///< after which the last byte of a product is received
 };
 

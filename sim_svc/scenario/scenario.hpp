@@ -61,8 +61,8 @@ struct NetworkStimulus {
 struct Stimulus {
   temporal::Time at{};
   std::variant<GoalStimulus, RecallStimulus, HazardStimulus, NetworkStimulus, world::Disturbance> what;
-  std::optional<mission::Entry>
-      entry{};  ///< is where a ComponentMishap, HollowSuccess or ViewBlock stands in the file
+  /// Is where a ComponentMishap, HollowSuccess or ViewBlock stands in the file.
+  std::optional<mission::Entry> entry{};
 };
 
 /// Says how a robot begins.

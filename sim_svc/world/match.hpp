@@ -1,6 +1,6 @@
 #pragma once
 
-namespace roci::sim {
+namespace roci::sim::world {
 
 /// Is callable with whatever one of its cases takes, for std::visit.
 template <class... Cases>
@@ -8,4 +8,4 @@ struct Match : Cases... {
   using Cases::operator()...;
 };
 
-}  // namespace roci::sim
+}  // namespace roci::sim::world

@@ -23,7 +23,7 @@ timeout 30 "${roci[@]}" events --count 1 >"$folder/first"
 for _ in {1..20}; do  # the first plan comes a minute of mission time later
   timeout 40 "${roci[@]}" energy --json >/dev/null 2>&1 && break
 done
-for verb in downlinks utility energy subway; do
+for verb in downlinks utility energy subway chains; do
   step "$verb" "$verb" --json --svg "$pictures/$verb.svg"
   step "$verb-text" "$verb"
 done

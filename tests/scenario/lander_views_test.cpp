@@ -31,7 +31,7 @@ TEST_P(LanderViews, AreToldByThePlannerAndShownByTheConsole) {
           "/tests/missions/lander " +
           std::string(GetParam()) + " " + std::to_string(domain.id()) + " " + folder_.string());
   auto steps = steps_of(ended.output);
-  for (const std::string verb : {"downlinks", "utility", "energy", "subway"}) {
+  for (const std::string verb : {"downlinks", "utility", "energy", "subway", "chains"}) {
     EXPECT_EQ(steps[verb].exit_code, 0) << verb << "\n" << ended.output;
     EXPECT_EQ(steps[verb + "-text"].exit_code, 0) << verb << "\n" << ended.output;
     const std::string picture = text_of(folder_ / (verb + ".svg"));

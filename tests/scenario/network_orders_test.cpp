@@ -171,6 +171,44 @@ TEST_P(NetworkOrders, ANetworkOutlivesThePlanner) {
   EXPECT_THAT(deeds(), Contains("send near"));
 }
 
+// A planner that dies while the ground's network is in force, and its successor, which the ground asks again.
+class NetworkAndDeath : public NetworkOrders {
+ protected:
+  std::map<std::string, Step> fly_with(const std::string& damage, const std::string& expected) const {
+    scenario("", expected);  // changed.yaml is what near.htn was packed from
+    for (const char* network : {"network.yaml", "changed.yaml"})
+      edit(mission_ / network, "window_s: [7200, none]", "window_s: [3000, none]");
+    const services::process::DomainClaim domain;
+    const Ended ended = run("timeout 120 " ROCI_SOURCE_DIR "/tests/scenario/network_kill.sh ${PATH%%:*} " +
+                            mission_.string() + " " + GetParam() + " " + std::to_string(domain.id()) + " " +
+                            run_.string() + " " + (mission_ / "changed.yaml").string() + " " + damage);
+    SCOPED_TRACE(ended.output);
+    auto steps = steps_of(ended.output);
+    EXPECT_EQ(steps["upload"].printed.value("stage", ""), "in force");
+    EXPECT_EQ(steps["killed"].exit_code, 0);
+    EXPECT_EQ(steps["launch"].exit_code, 0);
+    EXPECT_EQ(steps["launch"].printed.value("result", ""), "achieved");
+    EXPECT_EQ(steps["launch"].printed["expected"].value("fault", "no report"), "");
+    return steps;
+  }
+};
+
+TEST_P(NetworkAndDeath, ARepeatedKeyIsAnsweredWithWhereItStands) {
+  auto steps = fly_with("", "");
+  EXPECT_EQ(steps["repeated"].exit_code, 0);
+  EXPECT_EQ(steps["repeated"].printed.value("stage", ""), "in force");
+  EXPECT_EQ(steps["repeated"].printed.value("network_version", 0), 2);
+  EXPECT_EQ(steps["status"].printed.size(), 2U) << "the network in force and one order";
+  EXPECT_THAT(deeds(), Not(Contains("dig far")));
+}
+
+// Then it is the mission's own that is in force, and the planner knows of no order.
+TEST_P(NetworkAndDeath, ADamagedNetworkIsToldAndTheMissionsOwnIsInForce) {
+  auto steps = fly_with("'for network in networks/*.htn; do printf x >>$network; done'",
+                        "  - \"planner.network_damaged\": \"is not what was written\"\n");
+  EXPECT_NE(steps["repeated"].printed.value("stage", ""), "") << "it is an order like any other again";
+}
+
 // What people do, with `roci`: each of the three classes of R118 is one action. Without the value the farewell waits for ever.
 TEST_P(NetworkOrders, EachClassOfTheGroundIsOneActionOfTheConsole) {
   edit(mission_ / "mission.yaml", "ground: {", "ground: {values: [lander.go], ");
@@ -205,6 +243,8 @@ TEST_P(NetworkOrders, EachClassOfTheGroundIsOneActionOfTheConsole) {
   EXPECT_EQ(steps["launch"].printed.value("result", ""), "achieved");
 }
 
+INSTANTIATE_TEST_SUITE_P(Transports, NetworkAndDeath, ::testing::Values("mixed"),
+                         [](const auto& dds) { return std::string(dds.param); });
 INSTANTIATE_TEST_SUITE_P(Transports, NetworkOrders, ::testing::Values("fastdds", "cyclonedds", "mixed"),
                          [](const auto& dds) { return std::string(dds.param); });
 

@@ -42,11 +42,17 @@ class Results:
     def expected(self, bias: float, strategy: str) -> float:
         return self.variants[bias]["expected"][strategy]
 
-    def bounds(self, bias: float) -> list[float]:
-        """For each flight of Replan what no planner exceeds, however much it knows beforehand: the flight without failures, and
-        all that its seed's analyses can show. It pays for no failure, so shares of it are shares of less than can be had."""
-        most = self.variants[bias]["prescient"]["utility"]
-        return [most + flight["discoverable"] for flight in self.flights(bias, "replan")]
+    def prescient(self, bias: float) -> list[float]:
+        """What a planner brings home, seed by seed, that knows energies and failures beforehand and pays for them as a flight does."""
+        return [known["utility"] for known in self.variants[bias]["prescient"]]
+
+    def losses(self, bias: float) -> dict[str, list[float]]:
+        """What lies between that and each flight of Replan: the worth, to the same planner, of the energy that went into chains which were not
+        completed, and of the energy that was left; the rest is what was chosen, in which order and how late it was known."""
+        flights, known = self.flights(bias, "replan"), self.prescient(bias)
+        return {"chains that were not completed": [most - flight["ladder"][0] for most, flight in zip(known, flights)],
+                "energy that was left": [flight["ladder"][0] - flight["ladder"][1] for flight in flights],
+                "choice, order and what was known too late": [flight["ladder"][1] - flight["utility"] for flight in flights]}
 
     def faults(self) -> int:
         return sum(len(flight["faults"]) for bias in self.variants for strategy in STRATEGIES

@@ -22,8 +22,20 @@ SETTINGS = ROOT / "bench/europa/experiments.yaml"
 CAUSES = Path(__file__).with_name("causes.json")
 BIASES = ["0", "0.1", "-0.1"]
 # What is swept, as bench_europa names it: factors of the values of the settings would hide what was flown.
-SWEPT = {"c_g [J]": ("--ground-j", [1e6, 2e6, 8e6, 16e6]), "c_r [J]": ("--replanning-j", [0, 1e6, 2e6, 4e6]),
-         "share of d": ("--discovery-share", [0, 0.6, 1]), "u_d": ("--discovery-utility", [0.05, 0.3])}
+SWEPT = {"c_g [J]": ("--ground-j", [1e6, 8e6, 16e6]), "c_r [J]": ("--replanning-j", [0, 1e6, 4e6]),
+         "share of d": ("--discovery-share", [0, 1]), "u_d": ("--discovery-utility", [0.05, 0.3])}
+# What replanning does without or otherwise, and at which bias that is flown.
+OTHERS = [("no repair", "0", ["--without", "repair"]), ("no optimize", "0", ["--without", "optimize"]),
+          ("no learning", "0", ["--without", "learning"]), ("no discovery", "0", ["--without", "discovery"]),
+          ("no retries", "0", ["--without", "retry"]), ("downlinks asked for", "0", ["--downlinks"]),
+          ("robust", "0", ["--robust"]), ("robust", "0.1", ["--robust"])]
+MISSION = "missions/europa/network-rsm1.yaml"
+SIZES, DAYS = [(3, 3), (5, 5), (10, 5), (30, 10)], "2"  # sites and targets; days of mission time
+FAILING = "transport_sample"  # whose first execution fails in figure 5
+FIGURES = {"mission": ["--strategy", "replan", "--look-days", "6", "--look-for", "mono_panorama", "downlink", "discard_sample"],
+           **{f"{strategy} {kind}": ["--strategy", strategy, "--failure", f"{FAILING}={kind}"]
+              for strategy, kind in (("replan", "none"), ("static", "flexible"), ("ground", "flexible"), ("fe", "flexible"),
+                                     ("replan", "replanning"))}}
 
 
 def flown(bench: Path, options: list[str]) -> dict:
@@ -33,16 +45,32 @@ def flown(bench: Path, options: list[str]) -> dict:
     return json.loads(done.stdout)
 
 
-def fly(bench: Path, network: str, runs: int, sweep_runs: int) -> dict:
-    """All that the page is made of, and the command that makes it again."""
-    points = [(name, option, value) for name, (option, values) in SWEPT.items() for value in values] if sweep_runs else []
-    orders = [["--network", network, "--runs", str(runs), f"--bias={bias}"] for bias in BIASES]
-    orders += [["--network", network, "--runs", str(sweep_runs), "--bias=0", option, str(value)] for _, option, value in points]
+def fly(bench: Path, network: str, runs: int, few: int) -> dict:
+    """All that the page is made of, and the command that makes it again. What is swept, left out or judged otherwise is flown `few` times."""
+    base = ["--network", network]
+    points = [(name, option, value) for name, (option, values) in SWEPT.items() for value in values]
+    variants = [[*base, "--runs", str(runs), f"--bias={bias}"] for bias in BIASES]
+    swept = [[*base, "--runs", str(few), "--bias=0", "--strategy", "ground", "fe", "replan", option, str(value)]
+             for _, option, value in points]
+    others = [(name, bias, [*base, "--runs", str(few), f"--bias={bias}", "--strategy", "replan", "--no-prescient", *options])
+              for name, bias, options in OTHERS]
+    tool = bench.with_name("bench_europa_cycles")
+    costs = [["--seed", str(seed)] for seed in (1, 2, 3)]
+    costs += [["--sites", str(sites), "--targets", str(targets), "--days", DAYS] for sites, targets in SIZES]
+    figures = {name: [*base, "--runs", "1", "--bias=0", "--no-prescient", "--executions", *options] for name, options in FIGURES.items()}
+    figures["mission"][1] = MISSION
     with ThreadPoolExecutor(2) as two:
-        documents = list(two.map(lambda options: flown(bench, options), orders))
-    swept = [[name, value, document] for (name, _, value), document in zip(points, documents[len(BIASES):])]
-    command = ["bench/europa/report/run.py", "--network", network, "--runs", str(runs), "--sweep-runs", str(sweep_runs)]
-    return {"command": command, "variants": documents[:len(BIASES)], "swept": swept}
+        def all_of(orders: list[list[str]], program: Path = bench) -> list[dict]:
+            return list(two.map(lambda options: flown(program, options), orders))
+
+        out = {"variants": all_of(variants)}
+        out["swept"] = [[name, value, document] for (name, _, value), document in zip(points, all_of(swept))] if few else []
+        out["others"] = [[name, bias, document] for (name, bias, _), document in
+                         zip(others, all_of([order for _, _, order in others]))] if few else []
+        out["cycles"] = all_of(costs, tool)
+        out["figures"] = dict(zip(figures, all_of(list(figures.values()))))
+    out["command"] = ["bench/europa/report/run.py", "--network", network, "--runs", str(runs), "--few", str(few)]
+    return out
 
 
 def forecast() -> float:
@@ -58,23 +86,25 @@ def main() -> int:
     parser.add_argument("--bench", type=Path, default=ROOT / "build/release/bench/bench_europa", help="the program that flies")
     parser.add_argument("--network", default="missions/europa/network.yaml", help="the network that is flown")
     parser.add_argument("--runs", type=int, default=50, help="flights of each strategy and variant")
-    parser.add_argument("--sweep-runs", type=int, default=0, help="flights of each strategy and swept value; 0 sweeps nothing")
+    parser.add_argument("--few", type=int, default=8,
+                        help="flights of each strategy for what is swept, left out or judged otherwise; 0: none of that")
     parser.add_argument("--results", type=Path, help="what --keep has written, instead of flying: for a cause that was added")
     parser.add_argument("--keep", type=Path, help="the file that keeps what was flown")
     parser.add_argument("--out", type=Path, default=ROOT / "docs", help="the folder of the page; pictures/ stands in it")
     args = parser.parse_args()
-    if args.runs < 2 or args.sweep_runs == 1:
+    if args.runs < 2 or args.few == 1:
         parser.error("an interval needs two runs at least")
-    flights = json.loads(args.results.read_text()) if args.results else fly(args.bench, args.network, args.runs, args.sweep_runs)
+    flights = json.loads(args.results.read_text()) if args.results else fly(args.bench, args.network, args.runs, args.few)
     if args.keep:
         args.keep.write_text(json.dumps(flights))
     results = Results(*flights["variants"])
-    swept = [(name, value, Results(document)) for name, value, document in flights["swept"]]
     causes = json.loads(CAUSES.read_text()) if CAUSES.exists() else {}
-    command = shlex.join(flights["command"])
+    told = page.Told(results, [(name, value, Results(document)) for name, value, document in flights["swept"]],
+                     [(name, float(bias), Results(document)) for name, bias, document in flights["others"]], flights["cycles"],
+                     flights["figures"], causes, shlex.join(flights["command"]), forecast())
     (args.out / "pictures").mkdir(parents=True, exist_ok=True)
-    (args.out / "europa-experiments.md").write_text(page.page(results, swept, causes, command, forecast()))
-    for name, picture in page.pictures(results).items():
+    (args.out / "europa-experiments.md").write_text(page.page(told))
+    for name, picture in page.pictures(told).items():
         (args.out / "pictures" / f"europa-{name}.svg").write_text(picture)
     return 0
 

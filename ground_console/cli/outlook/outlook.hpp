@@ -22,6 +22,12 @@ std::string utility_text(const v1::MissionOutlook& outlook);
 nlohmann::json utility_json(const v1::MissionOutlook& outlook);
 std::string utility_svg(const v1::MissionOutlook& outlook);
 
+/// A whole mission over time: chains that were done, that run and that are planned, a row for all requests whose names differ in the
+/// numbers at their end (figure 8).
+std::string chains_text(const v1::MissionOutlook& outlook);
+nlohmann::json chains_json(const v1::MissionOutlook& outlook);
+std::string chains_svg(const v1::MissionOutlook& outlook);
+
 /// The budget at the end of each planned task, as predicted and in the worst and the best case.
 std::string energy_text(const v1::MissionOutlook& outlook);
 nlohmann::json energy_json(const v1::MissionOutlook& outlook);

@@ -23,6 +23,7 @@ struct Views {
 
 Views<v1::MissionOutlook> views_of(Subject subject) {
   if (subject == Subject::energy) return {energy_text, energy_json, energy_svg};
+  if (subject == Subject::chains) return {chains_text, chains_json, chains_svg};
   if (subject == Subject::subway) return {subway_text, subway_json, subway_svg};
   return {utility_text, utility_json, utility_svg};
 }

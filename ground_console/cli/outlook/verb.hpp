@@ -1,4 +1,4 @@
-// The verbs `roci downlinks`, `utility`, `energy` and `subway`.
+// The verbs `roci downlinks`, `utility`, `energy`, `subway` and `chains`.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace roci::console::cli::outlook {
 
-enum class Subject { downlinks, utility, energy, subway };
+enum class Subject { downlinks, utility, energy, subway, chains };
 
 struct OutlookArguments {
   Subject subject = Subject::downlinks;

@@ -178,8 +178,9 @@ void UtilityEngine::tell_outlook(const cycle::Report& report, const std::vector<
   outlooks_.forgotten(situation, begun_before);
   if (!report.changed && report.explored == 0 && !std::exchange(to_look_, false)) return;
   to_look_ = false;
-  if (engine::DownlinkSchedule schedule = schedule_of(situation); schedule != told_schedule_)
-    out.schedule = told_schedule_ = std::move(schedule);
+  if (settings_.downlinks)  // without the Downlink Manager there is no schedule to tell
+    if (engine::DownlinkSchedule schedule = schedule_of(situation); schedule != told_schedule_)
+      out.schedule = told_schedule_ = std::move(schedule);
   if (engine::MissionOutlook outlook = outlooks_.make(situation); outlook != told_outlook_)
     out.outlook = told_outlook_ = std::move(outlook);
 }

@@ -131,11 +131,13 @@ class Reader {
     block->second.steps.push_back(step);
   }
 
-  // A block that is not whole is no plan any more. What has begun of it counts; what is committed does up to the link that has failed, and
-  // is skipped behind it.
+  // A block that is not whole, or of which a step has failed, is no plan any more. What has begun of it counts; what is committed does up
+  // to the link that has failed, and is skipped behind it.
   void keep(std::uint32_t number, Block& block) {
     std::ranges::sort(block.steps, {}, &Step::id);
-    bool whole = whole_.contains(number);
+    bool whole = whole_.contains(number) && std::ranges::none_of(block.steps, [&](const Step& step) {
+                   return failed_.contains(step.id);
+                 });
     for (std::size_t link = 0; link < block.steps.size(); ++link)
       whole = whole && block.steps[link].id == ((std::uint64_t{number} << 32U) | link);
     if (!whole) {

@@ -461,17 +461,21 @@ void Cycle::adopt(const search::Plan& plan) {
   }
 }
 
+temporal::RankVector Cycle::predicted(std::uint32_t chain, std::span<const double> newest,
+                                      std::span<const std::uint32_t> before) const {
+  const auto existing =
+      delivery_ != nullptr ? delivery_->products() : std::span<const assessor::ExistingProduct>{};
+  return assessor_.predicted(chain, {network_, past_.values, chains_, newest, existing, before, {}});
+}
+
 // Returns what has not begun as a plan, assessed as a search assesses its own.
 search::Plan Cycle::planned(Time now) const {
   const std::vector<double> newest = values_now(now);
-  const auto existing =
-      delivery_ != nullptr ? delivery_->products() : std::span<const assessor::ExistingProduct>{};
   std::vector<std::uint32_t> before;
   search::Plan out;
   for (const Block* one : by_start()) {
     if (!one->begun()) {
-      const assessor::Context context{network_, past_.values, chains_, newest, existing, before, {}};
-      out.utility += assessor_.predicted(one->chain, context);
+      out.utility += predicted(one->chain, newest, before);
       out.cost += flattening::cost(network_, chains_.chains[one->chain], past_.values);
       search::Placed standing{one->chain, {}};
       for (const Link& each : one->links) standing.starts.push_back(each.start);

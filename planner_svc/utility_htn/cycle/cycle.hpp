@@ -107,7 +107,8 @@ class Cycle {
   bool contributes(const Block& one, const temporal::timelines::Conflict& conflict) const;
   Block* culprit(const temporal::timelines::Conflict& conflict);
   bool out_of_order(const Block& one) const;
-  void drop(const Block& waiting, Report& report);
+  void drop(const Block& waiting, const std::string& why, Report& report);
+  bool keep_rules(temporal::Time now, Report& report);
   bool make_room(std::uint32_t number, temporal::Time from, Report& report);
   bool keep_order(temporal::Time now, Report& report);
   void push(Block& late, temporal::Time from);
@@ -131,6 +132,8 @@ class Cycle {
   std::set<model::TaskIndex> candidates(temporal::Time now) const;
   std::vector<const Block*> by_start() const;
   search::Plan planned(temporal::Time now) const;
+  temporal::RankVector predicted(std::uint32_t chain, std::span<const double> newest,
+                                 std::span<const std::uint32_t> before) const;
   temporal::timelines::Footprint footprint(const Block& block, std::size_t link) const;
   temporal::Duration duration(model::TaskIndex task) const;
   double budget() const;

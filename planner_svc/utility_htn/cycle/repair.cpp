@@ -10,6 +10,12 @@ namespace roci::planner::utility_htn::cycle {
 
 using temporal::Duration, temporal::Time;
 
+namespace {
+
+constexpr char kNoLongerFits[] = "it no longer fits";
+
+}  // namespace
+
 // Takes what is only planned out of a block that cannot be finished; what is committed ends by itself.
 void Cycle::abandon(Block& begun, const std::string& why, Report& report) {
   for (std::size_t i = 0; i < begun.links.size(); ++i) {
@@ -52,11 +58,30 @@ Block* Cycle::culprit(const temporal::timelines::Conflict& conflict) {
   return out;
 }
 
+// Takes out what has not begun and is predicted to break a rule of the mission (R114), as things stand now.
+bool Cycle::keep_rules(Time now, Report& report) {
+  const std::vector<double> newest = values_now(now);
+  bool changed = false;
+  for (bool again = true; again;) {
+    again = false;
+    std::vector<std::uint32_t> before;
+    for (const Block* one : by_start()) {
+      if (!one->begun() && predicted(one->chain, newest, before) < temporal::RankVector{}) {
+        drop(*one, "it breaks a rule of the mission", report);
+        changed = again = true;
+        break;
+      }
+      before.push_back(one->chain);
+    }
+  }
+  return changed;
+}
+
 // Conflicts behind the commit window are mended by moving what has begun to later, and taking out what has not; the
 // latter is scheduled anew at once.
 bool Cycle::repair(Time now, Report& report) {
   const Time from = now + network_.cycle.commit_window;
-  bool changed = false;
+  bool changed = keep_rules(now, report);
   std::set<std::uint32_t> shifted;
   for (std::size_t rounds = 2 * blocks_.size(); rounds > 0; --rounds) {
     const auto conflicts = timelines_.conflicts(from, temporal::no_bound);
@@ -66,7 +91,7 @@ bool Cycle::repair(Time now, Report& report) {
     if (gives_way == nullptr) break;
     changed = true;
     if (!gives_way->begun()) {
-      drop(*gives_way, report);
+      drop(*gives_way, kNoLongerFits, report);
     } else if (const std::uint32_t number = gives_way->number;
                !shifted.insert(number).second || !make_room(number, from, report)) {
       abandon(*block(number), "no time is left at which the rest of it fits", report);
@@ -88,8 +113,8 @@ bool Cycle::out_of_order(const Block& one) const {
 }
 
 // Takes out a block that has not begun; its request waits for another place.
-void Cycle::drop(const Block& waiting, Report& report) {
-  report.notes.push_back(chains_.chains[waiting.chain].name + " is taken out: it no longer fits");
+void Cycle::drop(const Block& waiting, const std::string& why, Report& report) {
+  report.notes.push_back(chains_.chains[waiting.chain].name + " is taken out: " + why);
   take_out(waiting);
   blocks_.erase(blocks_.begin() + (&waiting - blocks_.data()));
   to_schedule_ = true;
@@ -106,7 +131,7 @@ bool Cycle::make_room(std::uint32_t number, Time from, Report& report) {
           (next == nullptr || one.links.front().start < next->links.front().start))
         next = &one;
     if (next == nullptr) return false;
-    drop(*next, report);
+    drop(*next, kNoLongerFits, report);
   }
   return true;
 }

@@ -152,8 +152,8 @@ TEST(BaseDomain, ACollectionThatCameToNothingUsesUpNoSample) {
                                                       {.downlinks = false});
   Flight flight{.network = network, .engine = engine, .fates = {}, .until = network.cycle.plan_end};
   flight.fates = [](const std::string& task, std::uint32_t execution) {
-    const bool fails = task == "transport_sample" && execution < 3;
-    return Fate{1, 0.8, fails && execution != 1 ? Resolution::replanning : Resolution::none};
+    const bool fails = task.starts_with("science_analyze_raw_0_") && !task.ends_with("2") && execution == 0;
+    return Fate{1, 0.7, fails ? Resolution::replanning : Resolution::none};
   };
   const Flown out = fly(flight);
   std::map<char, int> samples;  // by site
@@ -162,6 +162,24 @@ TEST(BaseDomain, ACollectionThatCameToNothingUsesUpNoSample) {
   EXPECT_EQ(samples, (std::map<char, int>{{'0', 3}, {'1', 3}, {'2', 3}}));
   EXPECT_EQ(out.replanned, 2U);
 }
+
+/// Each of these fails once so that the engine plans anew; everything else goes as the network has it.
+class BaseDomainWith : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(BaseDomainWith, OneFailureCostsNoMoreThanASampleOfCompressedData) {
+  Setting setting = base_setting();
+  setting.only_failure = {GetParam(), Resolution::replanning};
+  setting.without.insert("discovery");
+  const Experiment experiment(base_domain(), setting);
+  const Flown out = experiment.flown(Strategy::replanning, 0, 1);
+  EXPECT_THAT(out.faults, ::testing::IsEmpty());
+  EXPECT_EQ(out.replanned, 1U);
+  EXPECT_GE(out.utility[0], 8.55 - 0.4 - 1e-9);
+}
+
+INSTANTIATE_TEST_SUITE_P(Failing, BaseDomainWith,
+                         ::testing::Values("excavate_site_1", "collect_sample_1_0", "transport_sample",
+                                           "downlink_raw"));
 
 }  // namespace
 }  // namespace roci::bench::europa

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <random>
+#include <set>
 
 #include "planner_svc/utility_htn/adapter/utility_engine.hpp"
 #include "tests/unit/planner_svc/utility_htn/cycle/toy_network.hpp"
@@ -123,6 +124,10 @@ TEST(TaskFlight, WhatFlexibleExecutionCannotResolveIsPlannedAnew) {
   EXPECT_THAT(out.faults, IsEmpty());
   EXPECT_EQ(out.replanned, 1U);
   EXPECT_EQ(out.retried, 0U);
+  std::set<std::uint32_t> blocks;
+  for (const Execution& one : out.executions)
+    if (one.task == "dig") blocks.insert(one.block);
+  EXPECT_EQ(blocks.size(), 2U) << "the executive has not tried the same activity again";
   EXPECT_GE(out.utility, (temporal::RankVector{10})) << "the sample is taken all the same";
 }
 

@@ -63,7 +63,8 @@ std::size_t count_of(const std::string& text, const std::string& part) {
 
 std::vector<std::string> all_pictures(const v1::DownlinkSchedule& schedule,
                                       const v1::MissionOutlook& outlook) {
-  return {downlinks_svg(schedule), utility_svg(outlook), energy_svg(outlook), subway_svg(outlook)};
+  return {downlinks_svg(schedule), utility_svg(outlook), energy_svg(outlook), subway_svg(outlook),
+          chains_svg(outlook)};
 }
 
 TEST(DownlinksView, TellsWhatGoesWhenInWhichOrderAndWhatDoesNotAndWhy) {
@@ -154,6 +155,26 @@ TEST(UtilityView, ThePictureGoesByUtilityTheHighestRankFirst) {
   EXPECT_THAT(picture, HasSubstr(">0.1 of 0.7<"));
 }
 
+TEST(ChainsView, HasARowForRequestsThatDifferInNumbersAndALaneWhereTheyOverlap) {
+  v1::MissionOutlook outlook = outlook_of_a_lander();
+  outlook.chains().push_back(outlook.chains()[3]);  // at the time of sample_2_0
+  outlook.chains().back().request("sample_2_10");
+  const std::string picture = chains_svg(outlook);
+  EXPECT_EQ(fault_of(picture), "");
+  EXPECT_EQ(count_of(picture, ">sample<"), 1U);
+  EXPECT_THAT(picture, HasSubstr("× 4"));
+  EXPECT_THAT(picture, HasSubstr("sample_1_0 (done), 20:00:00 – 44:00:00, sample_1_0/whole"));
+  const auto place = [&](const std::string& request) {
+    const std::size_t y = picture.find(" y=\"", picture.find("<title>" + request + " ")) + 4;
+    return std::stod(picture.substr(y, picture.find('"', y) - y));
+  };
+  EXPECT_EQ(place("sample_2_0"), place("sample_1_1"));
+  EXPECT_EQ(place("sample_2_10"), place("sample_2_0") + 22) << "below it";
+  EXPECT_THAT(chains_text(outlook),
+              HasSubstr("60:00:00   92:00:00   running    sample_1_1   sample_1_1/whole\n"));
+  EXPECT_EQ(chains_json(outlook)["chains"][2]["stage"], "committed");
+}
+
 TEST(EnergyView, TellsWhatIsLeftAndWhenTheWorstCaseIsEmpty) {
   const std::string text = energy_text(outlook_of_a_lander());
   EXPECT_THAT(
@@ -218,6 +239,9 @@ TEST(OutlookPictures, AreWellFormedWhateverTheWireHolds) {
   outlook.network(bad);
   for (v1::ChainOutlook& one : outlook.chains()) {
     one.title(bad);
+    one.request(bad);
+    one.start_us(std::numeric_limits<std::int64_t>::max());
+    one.end_us(std::numeric_limits<std::int64_t>::min());
     one.stage(static_cast<v1::ChainStage>(99));
     one.predicted({std::nan(""), std::numeric_limits<double>::infinity()});
   }

@@ -44,9 +44,9 @@ engine::Goal whole_mission() {
 // Stands in for the executive and the host.
 class OutlookTest : public ::testing::Test {
  protected:
-  void start(model::Network network = imaging_lander()) {
-    engine_ =
-        std::make_unique<UtilityEngine>(engine::Setup{"utility_htn", "lander", "", ""}, std::move(network));
+  void start(model::Network network = imaging_lander(), cycle::Settings settings = {}) {
+    engine_ = std::make_unique<UtilityEngine>(engine::Setup{"utility_htn", "lander", "", ""},
+                                              std::move(network), settings);
     StepInputs inputs;
     inputs.goals.push_back(whole_mission());
     step(std::move(inputs));
@@ -196,6 +196,15 @@ TEST_F(OutlookTest, ACycleInWhichNothingHasChangedTellsNothing) {
   EXPECT_EQ(told_, told + 2);
 }
 
+TEST_F(OutlookTest, NewDataAreToldWhereThePlanIsNeverMadeBetter) {
+  model::Network network = imaging_lander();
+  for (model::Task& task : network.tasks) task.opens = std::max(task.opens, temporal::seconds(3600));
+  start(std::move(network), {.optimizes = false});
+  now_ += temporal::seconds(60);
+  hear(picture("dp-1", "nobody#1.0"));
+  EXPECT_EQ(outlook_.products.front().data.id, "dp-1");
+}
+
 TEST_F(OutlookTest, DataWithoutAWorthOfTheirOwnTakeThatOfTheirProduct) {
   start();
   const std::string image = activity("image_near");
@@ -245,6 +254,7 @@ TEST_F(OutlookTest, EnergyIsForeseenAtTheEndOfEachTaskWithMoreAndLessThanPredict
   std::size_t ends = 0;
   for (const engine::EnergyPoint& point : outlook_.energy) ends += point.activity.empty() ? 0 : 1;
   EXPECT_EQ(ends, 9U) << "each of the nine tasks";
+  EXPECT_GT(outlook_.energy.size(), ends + 1) << "and starts behind a gap";
   for (std::size_t i = 1; i < outlook_.energy.size(); ++i) {
     const engine::EnergyPoint& point = outlook_.energy[i];
     const double spent = 600000 - point.predicted_j;
@@ -258,6 +268,35 @@ TEST_F(OutlookTest, EnergyIsForeseenAtTheEndOfEachTaskWithMoreAndLessThanPredict
   double cost = 0;
   for (const engine::ChainOutlook& one : outlook_.chains) cost += one.cost_j;
   EXPECT_NEAR(outlook_.energy.back().predicted_j, 600000 - cost, 1e-3);
+}
+
+// Predicts the same of every chain.
+class OneWorth final : public assessor::Assessor {
+ public:
+  temporal::RankVector predicted(std::uint32_t, const assessor::Context&) const override { return {worth}; }
+  temporal::RankVector most(std::uint32_t, const assessor::Context&) const override { return {worth}; }
+  bool contextual(std::uint32_t, const assessor::Context&) const override { return false; }
+  double worth = 0.25;
+};
+
+TEST(OutlookOfChains, KeepsWhatWasPredictedBeforeTheyBegan) {
+  const model::Network network = imaging_lander();
+  const flattening::Chains chains = flattening::flatten_all(network);
+  OneWorth assessor;
+  const auto scheduler = search::make_scheduler("nearest");
+  cycle::Cycle cycle(network, chains, assessor, *scheduler, Time{0});
+  const delivery::Delivery delivery(network);
+  const Situation situation{network, chains, assessor, cycle, delivery, Time{0}};
+  Outlooks outlooks;
+  cycle.run(Time{0});
+  ASSERT_THAT(cycle.blocks(), SizeIs(::testing::Gt(1U)));
+  for (const engine::ChainOutlook& one : outlooks.make(situation).chains)
+    EXPECT_EQ(one.predicted, (temporal::RankVector{0.25}));
+  const cycle::Block first = cycle.blocks().front();
+  cycle.begun(cycle::task_id(first.number, 0), first.links.front().start);
+  assessor.worth = 0.5;
+  for (const engine::ChainOutlook& one : outlooks.make(situation).chains)
+    EXPECT_EQ(one.predicted, (temporal::RankVector{one.block == first.number ? 0.25 : 0.5})) << one.request;
 }
 
 TEST(OutlookOfTheSubwayMap, SitesGoByChanceAndTargetsTellTheirOutcomes) {
