@@ -73,6 +73,7 @@ world::DownlinkSchedule schedule_of(const v1::DownlinkSchedule& schedule) {
   for (const v1::ScheduledDownlink& downlink : schedule.downlinks()) {
     auto& products = out.products[downlink.activity()];
     for (const v1::ScheduledProduct& product : downlink.products()) products.push_back(product.id());
+    out.lasts[downlink.activity()] = temporal::Duration{downlink.end_us() - downlink.start_us()};
   }
   return out;
 }

@@ -115,7 +115,11 @@ Ending DirectRadio::go_on(Time now, Surroundings& around) {
     }
     run_->working = true;
     run_->work_end = now + temporal::seconds(run_->work_s);
-    if (settings_.session_s > 0 && !named()) run_->session_end = now + temporal::seconds(settings_.session_s);
+    const auto lasts = schedule_.lasts.find(run_->key.activity);
+    if (lasts != schedule_.lasts.end())
+      run_->session_end = now + lasts->second;
+    else if (settings_.session_s > 0 && !named())
+      run_->session_end = now + temporal::seconds(settings_.session_s);
   }
   if (run_->command == "send") return go_on_sending(now, around);
   if (now >= run_->work_end) return end(std::nullopt, now, around);
@@ -131,7 +135,8 @@ Ending DirectRadio::go_on_sending(Time now, Surroundings& around) {
       cut_off ? Choice{around.body.data->find(run_->transfer->product)} : next_product(around.body);
   const Product* left = next.product;
   if (!left) return end(std::nullopt, now, around);
-  const bool due = named() || left->tier == Tier::critical;  // it belongs to this downlink
+  // Whether it belongs to this downlink; otherwise it fills what is left of it.
+  const bool due = left->tier == Tier::critical || !(cut_off ? run_->transfer->name : next.name).empty();
   const std::string unsent = "before '" + left->id + "' was sent";
   if (!in_contact_ && !due && !cut_off) return end(std::nullopt, now, around);
   if (!in_contact_) return end(Failure{"contact-lost", settings_.window + " closed " + unsent}, now, around);
@@ -187,7 +192,8 @@ DirectRadio::Choice DirectRadio::next_product(const world::Body& body) const {
   for (const Product& one : body.data->products())
     if (open(one) && (!best || one.tier < best->tier)) best = &one;
   if (!best || best->tier == Tier::critical || !named()) return {best};
-  return next_named(*body.data);
+  const Choice next = next_named(*body.data);
+  return next.product || run_->session_end == kNoBound ? next : Choice{best};
 }
 
 DirectRadio::Choice DirectRadio::next_named(const world::DataStore& store) const {

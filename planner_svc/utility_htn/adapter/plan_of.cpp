@@ -95,7 +95,8 @@ PlanActivity activity_of(const model::Network& network, const model::Values& val
   out.robot = frame.robot;
   command(task, out);
   impacts(network, task, values, out);
-  out.duration_lower = temporal::seconds(model::duration_s(task, values));
+  out.duration_lower =
+      task.downlinks ? link.end - link.start : temporal::seconds(model::duration_s(task, values));
   out.preferred_start = link.start - frame.origin;
   out.pre = both(condition_of(network, task.constraints, Phase::pre), claims_of(network, task, values));
   out.maintenance = condition_of(network, task.constraints, Phase::maintenance);

@@ -197,6 +197,7 @@ Report Cycle::run(Time now) {
   // Before the past is folded: what is left of a failed block may have its time there.
   for (Block& one : blocks_)
     if (one.failed()) abandon(one, "", report);
+  fit_downlinks();
   does(Activity::commit, commit(now));
   if (consolidate(now)) report.done.push_back(Activity::consolidate);  // the plan is the same
   forget_over(report);
@@ -248,7 +249,7 @@ bool Cycle::follow(Time now) {
       if (before.stage == Stage::committed) await_start(one, i, now);
       if (before.stage == Stage::running && before.end <= now) {
         // What is due just now may have ended; what is overdue has not.
-        const Time due = before.start + duration(before.task);
+        const Time due = before.start + length(one, i);
         if (due < now) one.links[i].end = expected(due, now);
       }
       if (one.links[i] == before) continue;
@@ -265,7 +266,7 @@ Time Cycle::expected(Time due, Time now) const {
 // A link starts behind the one before it. The first that is late may begin at any time, and holds what it needs until then.
 void Cycle::await_start(Block& of, std::size_t index, Time now) {
   Link& late = of.links[index];
-  const Duration length = duration(late.task);
+  const Duration length = this->length(of, index);
   if (index > 0 && !is_over(of.links[index - 1].stage)) {
     const Duration gap = chains_.chains[of.chain].links[index].shortest_gap;
     late.start = std::max({late.start, now, of.links[index - 1].end + gap});
@@ -335,9 +336,8 @@ void Cycle::forget_over(Report& report) {
 }
 
 void Cycle::last_anew(Block& begun) const {
-  for (Link& each : begun.links)
-    if (each.stage == Stage::planned || each.stage == Stage::committed)
-      each.end = each.start + duration(each.task);
+  for (std::size_t i = 0; i < begun.links.size(); ++i)
+    if (waits(begun.links[i])) begun.links[i].end = begun.links[i].start + length(begun, i);
 }
 
 void Cycle::take_out(const Block& gone) {
@@ -356,6 +356,26 @@ void Cycle::put_in(const Block& placed) {
 
 Duration Cycle::duration(TaskIndex task) const {
   return temporal::seconds(model::duration_s(network_.tasks[task], past_.values));
+}
+
+// A downlink behind data that are there lasts as long as they take.
+Duration Cycle::length(const Block& block, std::size_t link) const {
+  const TaskIndex task = block.links[link].task;
+  const Duration least = duration(task);
+  if (delivery_ == nullptr || !network_.tasks[task].downlinks || !block.begun()) return least;
+  return std::max(least, delivery_->transmission(chains_.chains[block.chain].task, past_.values));
+}
+
+// Data that turned out larger or smaller than foreseen make planned downlinks longer or shorter (R127).
+void Cycle::fit_downlinks() {
+  for (Block& one : blocks_)
+    for (std::size_t i = 0; i < one.links.size(); ++i) {
+      Link& each = one.links[i];
+      if (each.stage != Stage::planned || !one.begun() || each.end - each.start == length(one, i)) continue;
+      each.end = each.start + length(one, i);
+      timelines_.move(task_id(one.number, i), each.start, each.end);
+      to_optimize_ = true;
+    }
 }
 
 std::vector<double> Cycle::values_now(Time now) const {

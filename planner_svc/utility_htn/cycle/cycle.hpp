@@ -136,6 +136,8 @@ class Cycle {
                                  std::span<const std::uint32_t> before) const;
   temporal::timelines::Footprint footprint(const Block& block, std::size_t link) const;
   temporal::Duration duration(model::TaskIndex task) const;
+  temporal::Duration length(const Block& block, std::size_t link) const;
+  void fit_downlinks();
   double budget() const;
   std::vector<double> values_now(temporal::Time now) const;
 

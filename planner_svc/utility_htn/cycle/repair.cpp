@@ -205,7 +205,8 @@ bool Cycle::lower(Block& late, Time from) {
   for (std::size_t i = 0; i < late.links.size(); ++i) {
     Link& each = late.links[i];
     if (each.stage != Stage::planned) continue;
-    const auto seen = footprint(late, i);
+    auto seen = footprint(late, i);
+    seen.duration = length(late, i);
     std::optional<Time> start;
     if (fits) {
       const Time before = i == 0 ? from : late.links[i - 1].end;

@@ -108,6 +108,15 @@ void Delivery::executed(std::uint64_t activity, model::TaskIndex task, Time star
   spent_[window.sol] += Rules::joules(window);
 }
 
+temporal::Duration Delivery::transmission(model::TaskIndex request, const model::Values& values) const {
+  double bytes = 0;
+  for (const Existing& one : existing_)
+    if (one.request == request && one.fate == Fate::stored && one.data.tier != model::Tier::residual)
+      bytes += static_cast<double>(one.data.bytes);
+  const double rate = rules_.bytes_per_s(values);
+  return rate > 0 ? temporal::seconds(std::ceil(bytes / rate)) : temporal::Duration{0};
+}
+
 RankVector Delivery::received() const {
   RankVector out;
   for (const Existing& product : existing_)

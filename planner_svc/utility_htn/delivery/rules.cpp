@@ -42,7 +42,7 @@ downlink::Window Rules::window(const search::PlannedDownlink& planned, const mod
   downlink::Window out;
   out.start = planned.start;
   out.latest_end = std::max(planned.start, planned.end);
-  out.bytes_per_s = value(rate_, values, 0);
+  out.bytes_per_s = bytes_per_s(values);
   out.power_w = std::max(0.0, watts);
   out.energy_limit_j = downlink_limit_j(values);
   out.sol = sol_of(planned.start, values);

@@ -20,6 +20,7 @@ class Rules {
   explicit Rules(const model::Network& network);
 
   bool has_rate() const { return rate_.has_value(); }
+  double bytes_per_s(const model::Values& values) const { return value(rate_, values, 0); }
   /// Returns the window of a planned downlink. It is as long as the network says that the task takes; a task that takes no time or has
   /// no rate carries nothing.
   downlink::Window window(const search::PlannedDownlink& planned, const model::Values& values) const;
