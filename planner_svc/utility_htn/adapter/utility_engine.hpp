@@ -80,7 +80,7 @@ class UtilityEngine final : public engine::SteppedEngine {
   temporal::Time again_at_{0};
   std::optional<temporal::Time> plan_ended_;  // until it is known how all of it ended
   bool goes_on_ = false;  // it has planned before, so it knows the past better than an executed version does
-  bool has_begun_ = false;  // fixed tasks stand as the first cycle can place them
+  bool has_begun_ = false;                         // fixed tasks stand as the first cycle can place them
   std::optional<temporal::PlanActivity> initial_;  // until it is over
   Outlooks outlooks_;
   engine::DownlinkSchedule told_schedule_;

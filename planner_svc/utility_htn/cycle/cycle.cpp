@@ -41,6 +41,7 @@ Cycle::Cycle(const model::Network& network, const flattening::Chains& chains,
       settings_(settings),
       timelines_(network.timelines, origin),
       past_{{}, model::priors(network), {}},
+      plan_end_(network.cycle.plan_end),
       deviation_(network.timelines.size(), 0.0) {
   for (const auto& definition : network.timelines) past_.internal.push_back(definition.initial);
   for (TaskIndex task = 0; task < network.tasks.size(); ++task)
@@ -74,14 +75,14 @@ void Cycle::begun(TaskId task, Time at) {
   Link* const one = link(task);
   if (one == nullptr || !waits(*one)) return;
   to_optimize_ |= one->start != at;
-  *one = {one->task, one->planned, at, at + duration(one->task), Stage::running};
+  *one = {one->task, one->planned, at, at + length(*block(block_of(task)), link_of(task)), Stage::running};
   timelines_.move(task, at, one->end);
 }
 
 void Cycle::tried_again(TaskId task, Time at) {
   Link* const one = link(task);
   if (one == nullptr || one->stage != Stage::running) return;
-  one->end = std::max(one->start, at) + duration(one->task);
+  one->end = std::max(one->start, at) + length(*block(block_of(task)), link_of(task));
   timelines_.move(task, one->start, one->end);
   to_optimize_ = true;
 }
@@ -201,6 +202,7 @@ Report Cycle::run(Time now) {
   does(Activity::commit, commit(now));
   if (consolidate(now)) report.done.push_back(Activity::consolidate);  // the plan is the same
   forget_over(report);
+  report.changed |= settings_.repairs && end_with_budget(now, report);
   does(Activity::schedule, schedule(now, report));
   const bool surprised = to_optimize_ || report.changed;
   const bool reordered = surprised && keep_order(now, report);
@@ -371,7 +373,8 @@ void Cycle::fit_downlinks() {
   for (Block& one : blocks_)
     for (std::size_t i = 0; i < one.links.size(); ++i) {
       Link& each = one.links[i];
-      if (each.stage != Stage::planned || !one.begun() || each.end - each.start == length(one, i)) continue;
+      if (each.stage != Stage::planned || !one.begun() || one.failed()) continue;
+      if (each.end - each.start == length(one, i)) continue;
       each.end = each.start + length(one, i);
       timelines_.move(task_id(one.number, i), each.start, each.end);
       to_optimize_ = true;
@@ -408,7 +411,7 @@ std::vector<const Block*> Cycle::by_start() const {
 
 // Returns what is in the budget when all that is placed has been paid.
 double Cycle::budget() const {
-  Time end = network_.cycle.plan_end;
+  Time end = plan_end_;
   if (!temporal::bounded(end)) {
     end = Time{0};
     for (const Block& one : blocks_)
@@ -417,12 +420,41 @@ double Cycle::budget() const {
   return timelines_.value(network_.budget, end) - network_.timelines[network_.budget].lowest;
 }
 
+// What draws all the time, as a hotel load, is planned to the end of the mission. Where the budget does not last so long, the mission ends
+// before: half of what is left is for being there, and half for having something to do, so that what is worth most is done in time.
+bool Cycle::end_with_budget(Time now, Report& report) {
+  const auto& definition = network_.timelines[network_.budget];
+  for (Block& one : blocks_) {
+    if (one.links.size() != 1 || one.links.front().stage != Stage::running) continue;
+    Link& load = one.links.front();
+    const model::Task& task = network_.tasks[load.task];
+    double power = 0;
+    for (const model::Impact& impact : task.impacts)
+      if (impact.timeline == network_.budget && impact.kind == temporal::ImpactKind::rate)
+        power -= model::evaluate(impact.amount, past_.values);
+    if (!task.commands.empty() || power <= 0 || load.end <= now) continue;
+    const double left = timelines_.value(network_.budget, now) - definition.lowest;
+    if (left > power * temporal::to_seconds(load.end - now)) continue;
+    load.end = plan_end_ = now + temporal::seconds(left / power / 2);
+    timelines_.move(task_id(one.number, 0), load.start, load.end);
+    report.notes.push_back("the budget does not last to the end of the mission: it is planned to " +
+                           temporal::to_text(plan_end_));
+    std::vector<std::uint32_t> beyond;
+    for (const Block& other : blocks_)
+      if (!other.begun() && other.links.back().end > plan_end_) beyond.push_back(other.number);
+    for (const std::uint32_t number : beyond) drop(*block(number), "the mission ends before", report);
+    to_schedule_ = to_optimize_ = true;
+    return true;
+  }
+  return false;
+}
+
 Cycle::Found Cycle::plan_for(Time now, const std::set<TaskIndex>& candidates, Report& report,
                              const search::Plan* known) {
   const std::vector<double> newest = values_now(now);
   search::Problem problem{network_, past_.values, chains_, assessor_, scheduler_, timelines_};
   problem.from = now + network_.cycle.commit_window;
-  problem.until = network_.cycle.plan_end;
+  problem.until = plan_end_;
   problem.budget = budget();
   problem.timelines_now = newest;
   problem.first_id = TaskId{1} << 63U;

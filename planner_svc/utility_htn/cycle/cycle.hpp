@@ -139,6 +139,7 @@ class Cycle {
   temporal::Duration length(const Block& block, std::size_t link) const;
   void fit_downlinks();
   double budget() const;
+  bool end_with_budget(temporal::Time now, Report& report);
   std::vector<double> values_now(temporal::Time now) const;
 
   const model::Network& network_;
@@ -152,6 +153,7 @@ class Cycle {
   std::set<model::TaskIndex> requested_;
   std::map<model::TaskIndex, std::uint32_t> failures_;
   std::vector<Block> blocks_;  // by number
+  temporal::Time plan_end_ = temporal::no_bound;  // of the network, or before it where the budget does not last
   std::uint32_t last_block_ = 0;
   std::vector<std::string> notes_;  // since the cycle before
   bool to_schedule_ = true;         // something waits that was not tried in this situation

@@ -211,7 +211,7 @@ bool Cycle::lower(Block& late, Time from) {
     if (fits) {
       const Time before = i == 0 ? from : late.links[i - 1].end;
       const Time latest = i == 0 ? temporal::no_bound : temporal::plus(before, gaps[i].longest_gap);
-      const Time latest_end = std::min(network_.cycle.plan_end, network_.tasks[each.task].closes);
+      const Time latest_end = std::min(plan_end_, network_.tasks[each.task].closes);
       start = timelines_.first_valid_start(
           seen, {std::max(from, before + (i == 0 ? Duration{0} : gaps[i].shortest_gap)),
                  std::min(latest, temporal::plus(latest_end, -seen.duration))});

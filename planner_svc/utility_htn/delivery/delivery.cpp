@@ -77,6 +77,7 @@ bool Delivery::hear(Existing product) {
   const auto at = std::ranges::lower_bound(existing_, product.data.id, {}, id);
   const auto index = at - existing_.begin();
   if (at != existing_.end() && at->data.id == product.data.id) {
+    if (product.request >= network_.tasks.size()) product.request = at->request;
     if (*at == product) return false;
     *at = std::move(product);
   } else {

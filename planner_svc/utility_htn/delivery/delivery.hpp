@@ -84,7 +84,8 @@ class Delivery {
 
   /// Takes in that another network stands where `before` stood. What a task generated that it does not have waits all the same.
   void replaced(const model::Network& before);
-  /// Takes in a product's newest state; returns whether anything is new. A score that is negative or not finite counts as 0, one above a
+  /// Takes in a product's newest state; returns whether anything is new. Its request is what it was as soon as nobody knows it any more,
+  /// since the plan forgets chains that have ended. A score that is negative or not finite counts as 0, one above a
   /// million as a million.
   bool hear(Existing product);
   /// Takes in what an executed downlink took, for the limit of its sol. `activity` is unique; what is told again counts once.

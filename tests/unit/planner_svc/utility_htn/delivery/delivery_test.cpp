@@ -128,6 +128,19 @@ TEST_F(DeliveryTest, WhatIsOnEarthOrGoneTakesNoRoom) {
   EXPECT_THAT(planned(), Contains("sample"));
 }
 
+TEST_F(DeliveryTest, TheRequestOfDataIsKnownWhenItsChainHasLeftThePlan) {
+  start();
+  Existing image = stored("image", Tier::mandatory, 10);
+  EXPECT_TRUE(delivery_->hear(image));
+  image.fate = Fate::received;
+  image.request = static_cast<model::TaskIndex>(network_.tasks.size());
+  EXPECT_TRUE(delivery_->hear(image));
+  EXPECT_EQ(delivery_->existing().front().request, task_named(network_, "view"));
+  EXPECT_EQ(delivery_->products().front().request, task_named(network_, "view"));
+  EXPECT_EQ(delivery_->existing().front().fate, Fate::received);
+  EXPECT_FALSE(delivery_->hear(image));
+}
+
 TEST_F(DeliveryTest, DataThatWaitKeepTheirRoomBesideNewOnes) {
   task("dig").products = {{"trench", Tier::mandatory, {200}, {0.5}}};
   start();
