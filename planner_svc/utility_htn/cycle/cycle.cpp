@@ -365,11 +365,33 @@ Duration Cycle::length(const Block& block, std::size_t link) const {
   const TaskIndex task = block.links[link].task;
   const Duration least = duration(task);
   if (delivery_ == nullptr || !network_.tasks[task].downlinks || !block.begun()) return least;
-  return std::max(least, delivery_->transmission(chains_.chains[block.chain].task, past_.values));
+  std::set<TaskIndex> requests{chains_.chains[block.chain].task};
+  if (task_id(block.number, link) == takes_rests_) {
+    requests.merge(delivery_->requests_with_data());
+    for (const Block& other : blocks_)
+      if (other.number != block.number) requests.erase(chains_.chains[other.chain].task);
+  }
+  return std::max(least, delivery_->transmission(requests, past_.values));
+}
+
+// Returns the first downlink of what has begun that is still to be committed.
+TaskId Cycle::first_downlink() const {
+  TaskId out = 0;
+  Time start = temporal::no_bound;
+  for (const Block& one : blocks_)
+    for (std::size_t i = 0; i < one.links.size(); ++i) {
+      const Link& each = one.links[i];
+      if (!one.begun() || one.failed() || each.stage != Stage::planned || each.start >= start) continue;
+      if (!network_.tasks[each.task].downlinks) continue;
+      out = task_id(one.number, i);
+      start = each.start;
+    }
+  return out;
 }
 
 // Data that turned out larger or smaller than foreseen make planned downlinks longer or shorter (R127).
 void Cycle::fit_downlinks() {
+  takes_rests_ = first_downlink();
   for (Block& one : blocks_)
     for (std::size_t i = 0; i < one.links.size(); ++i) {
       Link& each = one.links[i];

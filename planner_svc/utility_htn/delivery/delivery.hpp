@@ -100,9 +100,11 @@ class Delivery {
   std::span<const Existing> existing() const { return existing_; }
   /// Returns whether the network names a rate: otherwise all data get home without a schedule.
   bool limited() const { return rules_.has_rate(); }
-  /// Returns how long the data that wait on board take, of all that the request has generated but what is residual. A downlink that is to
-  /// bring them home lasts that long at least (R127).
-  temporal::Duration transmission(model::TaskIndex request, const model::Values& values) const;
+  /// Returns how long the data take that wait on board, of all that these requests have generated but what is residual. A downlink that is
+  /// to bring them home lasts that long at least (R127).
+  temporal::Duration transmission(const std::set<model::TaskIndex>& requests, const model::Values& values) const;
+  /// Returns the requests whose data wait on board, without residual ones.
+  std::set<model::TaskIndex> requests_with_data() const;
   /// Returns what was received on Earth with its last byte: executed utility, of which nothing is predicted.
   temporal::RankVector received() const;
 
