@@ -149,6 +149,37 @@ TEST_F(DeliveryTest, DataThatWaitKeepTheirRoomBesideNewOnes) {
   EXPECT_THAT(planned(), Not(Contains("sample"))) << "two downlinks carry what waits";
 }
 
+// R127: downlinks are brought up to date with what they are to carry.
+TEST_F(DeliveryTest, ADownlinkLastsAsLongAsTheDataThatAreThere) {
+  start();
+  cycle_->run(Time{0});
+  cycle_->run(10s);
+  const auto sending = [&] {
+    for (const cycle::Block& one : cycle_->blocks())
+      if (chains_.chains[one.chain].task == task_named(network_, "sample")) return one.links.back();
+    throw std::logic_error("no sample is planned");
+  };
+  ASSERT_EQ(sending().end - sending().start, 20s);
+  Existing trench = stored("trench", Tier::mandatory, 600);
+  trench.request = task_named(network_, "sample");
+  delivery_->hear(trench);
+  cycle_->doubt();
+  cycle_->run(20s);
+  EXPECT_EQ(sending().end - sending().start, 60s) << "10 bytes go in each second";
+  EXPECT_EQ(downlink(schedule(20s), "send_sample").products, std::vector<std::string>{"trench"});
+  Existing orphan = stored("of a chain that is gone", Tier::mandatory, 100);
+  orphan.request = static_cast<model::TaskIndex>(network_.tasks.size());
+  delivery_->hear(orphan);
+  cycle_->doubt();
+  cycle_->run(30s);
+  EXPECT_EQ(sending().end - sending().start, 70s) << "it takes along what nobody else does";
+  trench.fate = orphan.fate = Fate::sent;
+  delivery_->hear(trench);
+  delivery_->hear(orphan);
+  cycle_->run(40s);
+  EXPECT_EQ(sending().end - sending().start, 20s);
+}
+
 TEST_F(DeliveryTest, TheLimitOfADownlinkIsNeverExceeded) {
   add_parameter("downlink_limit_j", 99);  // each takes 100 J
   EXPECT_THAT(planned(), ElementsAre("idle"));
