@@ -44,6 +44,7 @@ class UtilityEngine final : public engine::SteppedEngine {
   void hear_goal(const engine::Goal& goal);
   void hear_end(const engine::EndedGoal& ended);
   void hear_observation(const engine::Observation& observation);
+  bool tasks_move(const std::string& timeline) const;
   void hear_product(const engine::DataProduct& product);
   void hear_step(const engine::StepStatus& step, temporal::Time now);
   void hear_receipt(const engine::Receipt& receipt, temporal::Time now);
@@ -80,7 +81,7 @@ class UtilityEngine final : public engine::SteppedEngine {
   temporal::Time again_at_{0};
   std::optional<temporal::Time> plan_ended_;  // until it is known how all of it ended
   bool goes_on_ = false;  // it has planned before, so it knows the past better than an executed version does
-  bool has_begun_ = false;  // fixed tasks stand as the first cycle can place them
+  bool has_begun_ = false;                         // fixed tasks stand as the first cycle can place them
   std::optional<temporal::PlanActivity> initial_;  // until it is over
   Outlooks outlooks_;
   engine::DownlinkSchedule told_schedule_;
