@@ -237,7 +237,10 @@ class TaskFlight {
     progress_.insert_or_assign(step.activity, step.progress);
     const Task* const task = task_of(status.activity);
     if (task == nullptr) return;
-    if (status.state == ActivityState::running && task->commands.empty()) draw(status.activity, *task, 1);
+    if (status.state == ActivityState::running && task->commands.empty()) {
+      draw(status.activity, *task, 1);
+      report_effects(*task, temporal::ImpactWhen::at_start);
+    }
     if (!temporal::is_over(status.state)) return;
     settle_draw(status.activity, status.state == ActivityState::succeeded, "done");
     if (status.state == ActivityState::succeeded) {

@@ -111,14 +111,14 @@ class Europa : public ::testing::TestWithParam<std::tuple<std::string, std::stri
  protected:
   ~Europa() override { fs::remove_all(folder_); }
 
-  Flight flight_of(const std::string& scenario, const std::string& transport) const {
+  Flight flight_of(const std::string& of, const std::string& transport) const {
     fs::remove_all(folder_);
-    return fly(kMission, transport, 1, "--scenario " + scenario + " --run-folder " + folder_.string());
+    return fly(kMission, transport, 1, "--scenario " + of + " --run-folder " + folder_.string());
   }
   /// Returns the trace of the same scenario over inproc, and what came home then.
-  static std::pair<std::string, double>& reference(const std::string& scenario) {
+  static std::pair<std::string, double>& reference(const std::string& of) {
     static std::map<std::string, std::pair<std::string, double>> known;
-    return known[scenario];
+    return known[of];
   }
 
   const fs::path folder_ = fs::temp_directory_path() / ("roci_europa_" + std::to_string(::getpid()));

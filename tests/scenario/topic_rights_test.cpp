@@ -146,9 +146,8 @@ TEST(TopicRightsOfServices, GiveNoMoreThanWhatIsUsed) {
     for (const security::TopicRights& row : security::topic_rights()) {
       if (elsewhere.contains(row.topic)) continue;
       const bool continuous =
-          entry.program == "planner_svc" &&
-          (row.topic == "roci/goal" || row.topic == "roci/observation" || row.topic == "roci/product" ||
-           row.topic == "roci/command/ack");
+          entry.program == "planner_svc" && (row.topic == "roci/goal" || row.topic == "roci/observation" ||
+                                             row.topic == "roci/product" || row.topic == "roci/command/ack");
       const bool paired = entry.program == "exec_svc" && row.topic == "roci/goal";
       if (any_of(row.writers, own) && !paired) {
         EXPECT_TRUE(used.written.contains(row.topic)) << entry.name << " may write " << row.topic;

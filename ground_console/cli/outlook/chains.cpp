@@ -95,7 +95,7 @@ class Mission {
   std::string draw() {
     draw_title(svg_, "The mission, done and planned", "Outlook " + made_text(outlook_));
     draw_key();
-    const double upper = kTop + 34;
+    const double upper = kTop + 42;
     double y = upper;
     for (const KindRow& row : rows_) y += static_cast<double>(row.lanes) * kLane + 8;
     draw_axis(upper, y);

@@ -14,8 +14,8 @@ namespace {
 using nlohmann::json;
 
 constexpr double kPage = 980;
-constexpr double kNames = 190;  // left of the bars
-constexpr double kBars = 520;   // the longest window
+constexpr double kNames = 212;  // left of the bars
+constexpr double kBars = 500;   // the longest window
 constexpr double kDownlink = 38;
 
 std::string whether_planned(const v1::ScheduledProduct& data) { return data.exists() ? "" : "planned"; }

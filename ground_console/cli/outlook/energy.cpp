@@ -48,6 +48,9 @@ class Course {
       most_ = std::max({most_, finite(point.best_j()), finite(point.predicted_j())});
     most_ = std::max(
         1.0, outlook.capacity_j() < 1.6 * most_ ? std::max(most_, finite(outlook.capacity_j())) : most_);
+    most_ = std::min(most_, 1e300);
+    const double step = marks(0, most_, 6).at(1);
+    most_ = std::ceil(most_ / step - 1e-9) * step;  // up to a mark
   }
 
   std::string draw() {

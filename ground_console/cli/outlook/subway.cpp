@@ -160,11 +160,15 @@ std::string subway_svg(const v1::MissionOutlook& outlook) {
     if (i + 1 < shown)  // the transfer to the site of the next chance
       svg.polyline({{first_x - kTransfer, y}, {first_x - kTransfer, y + kLine}},
                    {.stroke = "#b9c1ca", .width = 3, .dashes = "2 5"});
-    // Behind the first negative signature nobody goes on.
-    const auto negative =
-        std::ranges::find(stations, v1::SIGNATURE_NEGATIVE, [](const auto* one) { return one->outcome(); });
-    const double end_x =
-        std::min(last_x, first_x + kStations * static_cast<double>(negative - stations.begin()));
+    // Behind the first negative signature, and what was sampled all the same, nobody goes on.
+    double end_x = last_x;
+    if (std::ranges::any_of(stations,
+                            [](const auto* one) { return one->outcome() == v1::SIGNATURE_NEGATIVE; })) {
+      end_x = first_x;
+      for (std::size_t s = 0; s < std::min(stations.size(), most); ++s)
+        if (stations[s]->outcome() != v1::SIGNATURE_UNKNOWN || stations[s]->planned())
+          end_x = first_x + kStations * static_cast<double>(s);
+    }
     svg.line({end_x, y}, {last_x, y}, {.stroke = kRule, .width = 7});
     svg.line({first_x - kTransfer, y}, {end_x, y}, {.stroke = colour, .width = 7});
     svg.circle(first_x - kTransfer, y, 6, {.fill = "white", .stroke = "#8a97a6", .width = 3});

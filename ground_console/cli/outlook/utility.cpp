@@ -51,6 +51,19 @@ bool greater(const Row& a, const Row& b, std::size_t ranks) {
   return false;
 }
 
+// "request/task/product" says most with its ends.
+std::string short_name(const std::string& id) {
+  const std::size_t first = id.find('/');
+  const std::size_t last = id.rfind('/');
+  return first == last ? id : id.substr(0, first) + "/…" + id.substr(last);
+}
+
+bool has_worth(const Row& row, std::size_t ranks) {
+  for (std::size_t rank = 0; rank < ranks; ++rank)
+    if (score(*row.predicted, rank) != 0 || score(*row.executed, rank) != 0) return true;
+  return false;
+}
+
 std::vector<Row> chain_rows(const v1::MissionOutlook& outlook) {
   std::vector<Row> out;
   for (const v1::ChainOutlook& one : outlook.chains())
@@ -64,8 +77,8 @@ std::vector<Row> chain_rows(const v1::MissionOutlook& outlook) {
 std::vector<Row> product_rows(const v1::MissionOutlook& outlook) {
   std::vector<Row> out;
   for (const v1::ProductOutlook& one : outlook.products())
-    out.push_back({one.data().id(), one.data().exists() ? name_of(one.fate()) : "planned", &one.predicted(),
-                   &one.executed(), bytes_text(one.data().bytes())});
+    out.push_back({short_name(one.data().id()), one.data().exists() ? name_of(one.fate()) : "planned",
+                   &one.predicted(), &one.executed(), bytes_text(one.data().bytes())});
   std::ranges::stable_sort(out,
                            [&](const Row& a, const Row& b) { return greater(a, b, outlook.ranks().size()); });
   return out;
@@ -120,9 +133,11 @@ class Picture {
 
   double x_of(std::size_t column) const { return kLabels + 90 + kColumn * static_cast<double>(column); }
 
-  double draw_part(const std::string& title, const std::string& last, const std::vector<Row>& rows,
-                   double y) {
-    svg_.text(24, y, title + " (" + std::to_string(rows.size()) + ")", {.size = 13, .bold = true});
+  double draw_part(const std::string& title, const std::string& last, std::vector<Row> rows, double y) {
+    const std::size_t all = rows.size();
+    std::erase_if(rows, [&](const Row& row) { return !has_worth(row, outlook_.ranks().size()); });
+    const std::size_t worthless = all - rows.size();
+    svg_.text(24, y, title + " (" + std::to_string(all) + ")", {.size = 13, .bold = true});
     for (std::size_t i = 0; i < columns_.size(); ++i)
       svg_.text_within(x_of(i), y, kColumn - 8, outlook_.ranks()[columns_[i].rank].name(),
                        {.size = 11, .bold = true});
@@ -134,8 +149,10 @@ class Picture {
       svg_.text(24, y + 13, "and " + std::to_string(rows.size() - kMostRows) + " more", {.size = 11});
       y += kRow;
     }
-    if (rows.empty()) {
-      svg_.text(24, y + 13, "none", {.size = 11, .colour = kFaint});
+    if (worthless > 0 || all == 0) {
+      svg_.text(24, y + 13,
+                all == 0 ? "none" : std::to_string(worthless) + " more are worth nothing by themselves",
+                {.size = 11, .colour = kFaint});
       y += kRow;
     }
     return y + 14;

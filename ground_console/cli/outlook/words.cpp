@@ -110,8 +110,9 @@ std::vector<double> marks(double least, double most, int count) {
 }
 
 std::vector<double> time_marks(double from_s, double to_s, int count) {
-  constexpr std::array kSteps{1.0,    5.0,    10.0,    30.0,    60.0,    300.0,    600.0,    1800.0,
-                              3600.0, 7200.0, 21600.0, 43200.0, 86400.0, 172800.0, 432000.0, 864000.0};
+  constexpr std::array kSteps{1.0,     5.0,      10.0,     30.0,     60.0,     300.0,
+                              600.0,   1800.0,   3600.0,   7200.0,   21600.0,  43200.0,
+                              86400.0, 172800.0, 259200.0, 345600.0, 432000.0, 864000.0};
   double step = kSteps.back();
   for (const double one : kSteps)
     if ((to_s - from_s) / one <= count) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 #include <set>
+#include <string_view>
 #include <utility>
 
 #include "planner_svc/utility_htn/adapter/plan_of.hpp"
@@ -228,14 +229,15 @@ void Outlooks::add_chains(const Situation& at, MissionOutlook& out) {
     before.push_back(one->chain);
   }
   // Data count for the newest try of the request of which they come.
+  std::map<std::string_view, ChainOutlook*> newest;
+  for (ChainOutlook& chain : out.chains) {
+    ChainOutlook*& known = newest[chain.request];
+    if (known == nullptr || known->block < chain.block) known = &chain;
+  }
   for (const delivery::Existing& data : at.delivery.existing()) {
     if (data.request >= at.network.tasks.size()) continue;
-    ChainOutlook* newest = nullptr;
-    for (ChainOutlook& chain : out.chains)
-      if (chain.request == at.network.tasks[data.request].id &&
-          (newest == nullptr || newest->block < chain.block))
-        newest = &chain;
-    if (newest != nullptr) newest->executed += data.data.utility;
+    const auto chain = newest.find(at.network.tasks[data.request].id);
+    if (chain != newest.end()) chain->second->executed += data.data.utility;
   }
   std::ranges::stable_sort(out.chains, {}, &ChainOutlook::start);
 }

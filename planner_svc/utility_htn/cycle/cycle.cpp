@@ -75,14 +75,14 @@ void Cycle::begun(TaskId task, Time at) {
   Link* const one = link(task);
   if (one == nullptr || !waits(*one)) return;
   to_optimize_ |= one->start != at;
-  *one = {one->task, one->planned, at, at + duration(one->task), Stage::running};
+  *one = {one->task, one->planned, at, at + length(*block(block_of(task)), link_of(task)), Stage::running};
   timelines_.move(task, at, one->end);
 }
 
 void Cycle::tried_again(TaskId task, Time at) {
   Link* const one = link(task);
   if (one == nullptr || one->stage != Stage::running) return;
-  one->end = std::max(one->start, at) + duration(one->task);
+  one->end = std::max(one->start, at) + length(*block(block_of(task)), link_of(task));
   timelines_.move(task, one->start, one->end);
   to_optimize_ = true;
 }
@@ -365,15 +365,38 @@ Duration Cycle::length(const Block& block, std::size_t link) const {
   const TaskIndex task = block.links[link].task;
   const Duration least = duration(task);
   if (delivery_ == nullptr || !network_.tasks[task].downlinks || !block.begun()) return least;
-  return std::max(least, delivery_->transmission(chains_.chains[block.chain].task, past_.values));
+  std::set<TaskIndex> requests{chains_.chains[block.chain].task};
+  if (task_id(block.number, link) == takes_rests_) {
+    requests.merge(delivery_->requests_with_data());
+    for (const Block& other : blocks_)
+      if (other.number != block.number) requests.erase(chains_.chains[other.chain].task);
+  }
+  return std::max(least, delivery_->transmission(requests, past_.values));
+}
+
+// Returns the first downlink of what has begun that is still to be committed.
+TaskId Cycle::first_downlink() const {
+  TaskId out = 0;
+  Time start = temporal::no_bound;
+  for (const Block& one : blocks_)
+    for (std::size_t i = 0; i < one.links.size(); ++i) {
+      const Link& each = one.links[i];
+      if (!one.begun() || one.failed() || each.stage != Stage::planned || each.start >= start) continue;
+      if (!network_.tasks[each.task].downlinks) continue;
+      out = task_id(one.number, i);
+      start = each.start;
+    }
+  return out;
 }
 
 // Data that turned out larger or smaller than foreseen make planned downlinks longer or shorter (R127).
 void Cycle::fit_downlinks() {
+  takes_rests_ = first_downlink();
   for (Block& one : blocks_)
     for (std::size_t i = 0; i < one.links.size(); ++i) {
       Link& each = one.links[i];
-      if (each.stage != Stage::planned || !one.begun() || each.end - each.start == length(one, i)) continue;
+      if (each.stage != Stage::planned || !one.begun() || one.failed()) continue;
+      if (each.end - each.start == length(one, i)) continue;
       each.end = each.start + length(one, i);
       timelines_.move(task_id(one.number, i), each.start, each.end);
       to_optimize_ = true;

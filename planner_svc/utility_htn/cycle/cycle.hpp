@@ -138,6 +138,7 @@ class Cycle {
   temporal::Duration duration(model::TaskIndex task) const;
   temporal::Duration length(const Block& block, std::size_t link) const;
   void fit_downlinks();
+  TaskId first_downlink() const;
   double budget() const;
   bool end_with_budget(temporal::Time now, Report& report);
   std::vector<double> values_now(temporal::Time now) const;
@@ -153,6 +154,7 @@ class Cycle {
   std::set<model::TaskIndex> requested_;
   std::map<model::TaskIndex, std::uint32_t> failures_;
   std::vector<Block> blocks_;  // by number
+  TaskId takes_rests_ = 0;     // the downlink that is next; also of data whose own has gone without them
   temporal::Time plan_end_ = temporal::no_bound;  // of the network, or before it where the budget does not last
   std::uint32_t last_block_ = 0;
   std::vector<std::string> notes_;  // since the cycle before

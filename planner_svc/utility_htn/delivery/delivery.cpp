@@ -77,6 +77,7 @@ bool Delivery::hear(Existing product) {
   const auto at = std::ranges::lower_bound(existing_, product.data.id, {}, id);
   const auto index = at - existing_.begin();
   if (at != existing_.end() && at->data.id == product.data.id) {
+    if (product.request >= network_.tasks.size()) product.request = at->request;
     if (*at == product) return false;
     *at = std::move(product);
   } else {
@@ -108,13 +109,29 @@ void Delivery::executed(std::uint64_t activity, model::TaskIndex task, Time star
   spent_[window.sol] += Rules::joules(window);
 }
 
-temporal::Duration Delivery::transmission(model::TaskIndex request, const model::Values& values) const {
+namespace {
+
+bool waits_for_downlink(const Existing& one) {
+  return one.fate == Fate::stored && one.data.tier != model::Tier::residual;
+}
+
+}  // namespace
+
+temporal::Duration Delivery::transmission(const std::set<model::TaskIndex>& requests,
+                                          const model::Values& values) const {
   double bytes = 0;
   for (const Existing& one : existing_)
-    if (one.request == request && one.fate == Fate::stored && one.data.tier != model::Tier::residual)
+    if (waits_for_downlink(one) && requests.contains(one.request))
       bytes += static_cast<double>(one.data.bytes);
   const double rate = rules_.bytes_per_s(values);
   return rate > 0 ? temporal::seconds(std::ceil(bytes / rate)) : temporal::Duration{0};
+}
+
+std::set<model::TaskIndex> Delivery::requests_with_data() const {
+  std::set<model::TaskIndex> out;
+  for (const Existing& one : existing_)
+    if (waits_for_downlink(one)) out.insert(one.request);
+  return out;
 }
 
 RankVector Delivery::received() const {

@@ -84,7 +84,8 @@ class Delivery {
 
   /// Takes in that another network stands where `before` stood. What a task generated that it does not have waits all the same.
   void replaced(const model::Network& before);
-  /// Takes in a product's newest state; returns whether anything is new. A score that is negative or not finite counts as 0, one above a
+  /// Takes in a product's newest state; returns whether anything is new. Its request is what it was as soon as nobody knows it any more,
+  /// since the plan forgets chains that have ended. A score that is negative or not finite counts as 0, one above a
   /// million as a million.
   bool hear(Existing product);
   /// Takes in what an executed downlink took, for the limit of its sol. `activity` is unique; what is told again counts once.
@@ -99,9 +100,11 @@ class Delivery {
   std::span<const Existing> existing() const { return existing_; }
   /// Returns whether the network names a rate: otherwise all data get home without a schedule.
   bool limited() const { return rules_.has_rate(); }
-  /// Returns how long the data that wait on board take, of all that the request has generated but what is residual. A downlink that is to
-  /// bring them home lasts that long at least (R127).
-  temporal::Duration transmission(model::TaskIndex request, const model::Values& values) const;
+  /// Returns how long the data take that wait on board, of all that these requests have generated but what is residual. A downlink that is
+  /// to bring them home lasts that long at least (R127).
+  temporal::Duration transmission(const std::set<model::TaskIndex>& requests, const model::Values& values) const;
+  /// Returns the requests whose data wait on board, without residual ones.
+  std::set<model::TaskIndex> requests_with_data() const;
   /// Returns what was received on Earth with its last byte: executed utility, of which nothing is predicted.
   temporal::RankVector received() const;
 

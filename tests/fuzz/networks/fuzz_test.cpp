@@ -39,6 +39,13 @@ class FuzzNetworks : public testing::Test {
   FuzzNetworks() : folder_(fs::temp_directory_path() / ("roci-fuzz-networks-" + std::to_string(getpid()))) {
     fs::remove_all(folder_);
     fs::copy(ROCI_SOURCE_DIR "/missions/europa", folder_, fs::copy_options::recursive);
+    // A key that these networks do not use.
+    std::string text = read_bytes(folder_ / "lander.yaml");
+    const std::string measured = "power: \"collect_w_{site}\"";
+    const std::size_t place = text.find(measured);
+    EXPECT_NE(place, std::string::npos);
+    text.insert(place + measured.size(), ", values: {depth: \"collect_s_{site}\"}");
+    write_bytes(folder_ / "lander.yaml", text);
   }
   ~FuzzNetworks() override { fs::remove_all(folder_); }
 

@@ -109,6 +109,40 @@ TEST(TaskFlight, TellsWhereItsEnergyWentAndWhatItDid) {
   EXPECT_THAT(dug, ElementsAre("failed", "done"));
 }
 
+// R100: the executive acts at each event, and most of its events need no planning.
+TEST(TaskFlight, TellsWhatEachStepOfEngineAndExecutiveTook) {
+  const model::Network network = commanded_network();
+  UtilityEngine engine({"utility_htn", "lander", "", ""}, network, {});
+  double clock = 0;
+  Flight flight{.network = network, .engine = engine, .fates = kAsPlanned, .until = 20000s};
+  flight.processor_time = [&] { return clock += 1; };
+  const Flown out = fly(flight);
+  const auto cycles = std::ranges::count_if(out.steps, &EngineStep::cycle);
+  const auto searches = std::ranges::count_if(out.steps, [](const auto& step) { return step.explored > 0; });
+  EXPECT_GT(cycles, 0);
+  EXPECT_LT(cycles, static_cast<std::ptrdiff_t>(out.steps.size())) << "between cycles it only listens";
+  EXPECT_LT(searches, static_cast<std::ptrdiff_t>(out.events.size()));
+  EXPECT_THAT(out.events, ::testing::Each(1.0));
+  EXPECT_THAT(out.steps, ::testing::Each(::testing::Field(&EngineStep::seconds, 1.0)));
+}
+
+TEST(TaskFlight, SeesWhatIsProjectedAndWhenATaskCouldStart) {
+  const model::Network network = commanded_network();
+  UtilityEngine engine({"utility_htn", "lander", "", ""}, network, {});
+  Flight flight{.network = network, .engine = engine, .fates = kAsPlanned, .until = 20000s};
+  flight.look_at = 60s;
+  flight.look_for = {"image"};
+  const Flown out = fly(flight);
+  ASSERT_TRUE(out.seen.has_value());
+  EXPECT_GE(out.seen->now, 60s);
+  ASSERT_FALSE(out.seen->projection.empty());
+  EXPECT_EQ(out.seen->projection.front().time, out.seen->now);
+  EXPECT_NEAR(out.seen->projection.back().value, 2000 - out.spent, 1e-6) << "as it then went";
+  ASSERT_FALSE(out.seen->valid.at("image").empty());
+  for (const auto& [task, intervals] : out.seen->valid)
+    for (const auto& one : intervals) EXPECT_GE(one.earliest, out.seen->now + network.cycle.commit_window);
+}
+
 TEST(TaskFlight, EqualFlightsDecideAlike) {
   const model::Network network = commanded_network();
   const Fates fates = failing_once("dig", Resolution::replanning);

@@ -246,7 +246,7 @@ TEST(OutlookPictures, AreWellFormedWhateverTheWireHolds) {
     one.predicted({std::nan(""), std::numeric_limits<double>::infinity()});
   }
   for (v1::EnergyPoint& one : outlook.energy()) one.best_j(std::nan(""));
-  outlook.energy()[0].predicted_j(-std::numeric_limits<double>::infinity());
+  outlook.energy()[0].predicted_j(std::numeric_limits<double>::max());
   outlook.capacity_j(std::nan(""));
   for (v1::SubwaySite& site : outlook.sites()) {
     site.name(bad);

@@ -252,6 +252,54 @@ TEST_F(CycleTest, WhatIsCommittedIsExpectedBehindWhatHoldsItsClaim) {
   EXPECT_EQ(imaging.planned, view.links[0].start) << "what is committed stands as it was told";
 }
 
+// Condemns one chain from some time on, as a signature does a sample.
+class Condemning final : public assessor::Assessor {
+ public:
+  std::uint32_t condemned = 1U << 31U;
+  temporal::RankVector predicted(std::uint32_t chain, const assessor::Context& context) const override {
+    return chain == condemned ? temporal::RankVector{-1} : usual_.predicted(chain, context);
+  }
+  temporal::RankVector most(std::uint32_t chain, const assessor::Context& context) const override {
+    return usual_.most(chain, context);
+  }
+  bool contextual(std::uint32_t, const assessor::Context&) const override { return true; }
+
+ private:
+  assessor::NetworkAssessor usual_;
+};
+
+TEST_F(CycleTest, WhatBreaksARuleOfTheMissionByNowIsTakenOut) {
+  Condemning judge;
+  chains_ = flattening::flatten_all(network_);
+  Cycle cycle(network_, chains_, judge, *scheduler_, Time{0}, {});
+  cycle.run(Time{0});
+  ASSERT_THAT(requests(cycle), Contains("view"));
+  judge.condemned = block_of_request(cycle, "view").chain;
+  cycle.doubt();
+  const Report report = cycle.run(10s);
+  EXPECT_THAT(requests(cycle), Not(Contains("view")));
+  EXPECT_THAT(report.notes, Contains(HasSubstr("it breaks a rule of the mission")));
+}
+
+// `idle` draws 1 W for 300 s, as a hotel load does.
+TEST_F(CycleTest, WhereTheBudgetDoesNotLastTheMissionEndsBefore) {
+  Cycle cycle = make();
+  cycle.run(Time{0});
+  const Block load = block_of_request(cycle, "idle");
+  const Time start = load.links.front().start;
+  cycle.run(start);
+  cycle.begun(task_id(load.number, 0), start);
+  cycle.observe(testing::kBattery, start, 200);
+  const Report report = cycle.run(start + 10s);
+  EXPECT_THAT(report.notes, Contains(HasSubstr("does not last")));
+  const Time end = block_of_request(cycle, "idle").links.front().end;
+  EXPECT_EQ(end, start + 10s + 95s) << "half of the 190 J that are left then";
+  for (const Block& one : cycle.blocks())
+    if (!one.begun()) {
+      EXPECT_LE(one.links.back().end, end);
+    }
+}
+
 TEST_F(CycleTest, AValueOutOfItsRangeIsRefused) {
   Cycle cycle = make();
   EXPECT_THAT(cycle.set_value(0, 1000), HasSubstr("dig_s = 1000"));

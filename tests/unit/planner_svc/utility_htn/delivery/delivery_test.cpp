@@ -128,12 +128,56 @@ TEST_F(DeliveryTest, WhatIsOnEarthOrGoneTakesNoRoom) {
   EXPECT_THAT(planned(), Contains("sample"));
 }
 
+TEST_F(DeliveryTest, TheRequestOfDataIsKnownWhenItsChainHasLeftThePlan) {
+  start();
+  Existing image = stored("image", Tier::mandatory, 10);
+  EXPECT_TRUE(delivery_->hear(image));
+  image.fate = Fate::received;
+  image.request = static_cast<model::TaskIndex>(network_.tasks.size());
+  EXPECT_TRUE(delivery_->hear(image));
+  EXPECT_EQ(delivery_->existing().front().request, task_named(network_, "view"));
+  EXPECT_EQ(delivery_->products().front().request, task_named(network_, "view"));
+  EXPECT_EQ(delivery_->existing().front().fate, Fate::received);
+  EXPECT_FALSE(delivery_->hear(image));
+}
+
 TEST_F(DeliveryTest, DataThatWaitKeepTheirRoomBesideNewOnes) {
   task("dig").products = {{"trench", Tier::mandatory, {200}, {0.5}}};
   start();
   delivery_->hear(stored("first", Tier::mandatory, 200));
   delivery_->hear(stored("second", Tier::mandatory, 200));
   EXPECT_THAT(planned(), Not(Contains("sample"))) << "two downlinks carry what waits";
+}
+
+// R127: downlinks are brought up to date with what they are to carry.
+TEST_F(DeliveryTest, ADownlinkLastsAsLongAsTheDataThatAreThere) {
+  start();
+  cycle_->run(Time{0});
+  cycle_->run(10s);
+  const auto sending = [&] {
+    for (const cycle::Block& one : cycle_->blocks())
+      if (chains_.chains[one.chain].task == task_named(network_, "sample")) return one.links.back();
+    throw std::logic_error("no sample is planned");
+  };
+  ASSERT_EQ(sending().end - sending().start, 20s);
+  Existing trench = stored("trench", Tier::mandatory, 600);
+  trench.request = task_named(network_, "sample");
+  delivery_->hear(trench);
+  cycle_->doubt();
+  cycle_->run(20s);
+  EXPECT_EQ(sending().end - sending().start, 60s) << "10 bytes go in each second";
+  EXPECT_EQ(downlink(schedule(20s), "send_sample").products, std::vector<std::string>{"trench"});
+  Existing orphan = stored("of a chain that is gone", Tier::mandatory, 100);
+  orphan.request = static_cast<model::TaskIndex>(network_.tasks.size());
+  delivery_->hear(orphan);
+  cycle_->doubt();
+  cycle_->run(30s);
+  EXPECT_EQ(sending().end - sending().start, 70s) << "it takes along what nobody else does";
+  trench.fate = orphan.fate = Fate::sent;
+  delivery_->hear(trench);
+  delivery_->hear(orphan);
+  cycle_->run(40s);
+  EXPECT_EQ(sending().end - sending().start, 20s);
 }
 
 TEST_F(DeliveryTest, TheLimitOfADownlinkIsNeverExceeded) {

@@ -61,13 +61,14 @@ class Europa {
   model::Values values;
 };
 
-// Labels of figure 8 leave out what MEXEC adds as the instance's number: here form, site and target.
+// Labels of figure 8 leave out what MEXEC adds as the instance's number: here form, site and target, and whether it plans behind a sample.
 std::vector<std::string> labels(const std::vector<std::string>& ids) {
   static const std::regex instance("(_raw|_compressed)?(_[0-9]_[0-9])?$");
   std::vector<std::string> out;
   for (const std::string& id : ids)
-    out.push_back(id.starts_with("collect_sample")
-                      ? id
+    out.push_back(id.starts_with("collect_sample") ? id
+                  : id == "mexec_plan_process_sample"
+                      ? "mexec_plan_process"
                       : std::regex_replace(id, instance, "", std::regex_constants::format_first_only));
   return out;
 }
@@ -154,10 +155,10 @@ TEST(EuropaNetworks, ThePhaseOnATimelineSelectsTheDecomposition) {
   };
   EXPECT_EQ(when("preamble/once"), std::set<std::string>{"phase = landed"});
   EXPECT_EQ(when("sample_1_1/first/with_ground/raw"),
-            (std::set<std::string>{"phase = sampling", "lander.site.1 = excavated", "samples_1 = 0",
+            (std::set<std::string>{"phase = sampling", "lander.site.1 = excavated", "collector = clean",
                                    "fully_autonomous = no"}));
   EXPECT_EQ(when("sample_1_1/next/autonomous/raw"),
-            (std::set<std::string>{"phase = sampling", "lander.site.1 = excavated", "samples_1 >= 1",
+            (std::set<std::string>{"phase = sampling", "lander.site.1 = excavated", "collector = spent",
                                    "fully_autonomous = yes"}));
   EXPECT_EQ(
       when("site_block_2/excavate/autonomous"),
