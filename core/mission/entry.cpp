@@ -62,9 +62,18 @@ Entry Entry::at(std::string_view key) const {
   fail("'" + std::string(key) + "' is missing; add it");
 }
 
+Entry Entry::with_base(const Entry& base) const {
+  for (const Entry* one : {this, &base})
+    if (!one->is_mapping()) one->fail("expected 'key: value' pairs");
+  Entry out = *this;
+  out.base_ = std::make_shared<const Entry>(base);
+  return out;
+}
+
 std::optional<Entry> Entry::find(std::string_view key) const {
   if (!node().IsMap()) fail("expected 'key: value' pairs");
   const YAML::Node child = node()[std::string(key)];
+  if (!child.IsDefined() && base_) return base_->find(key);
   if (!child.IsDefined() || child.IsNull()) return std::nullopt;
   return Entry(document_, child);
 }
@@ -81,6 +90,9 @@ std::vector<std::pair<std::string, Entry>> Entry::fields() const {
   std::vector<std::pair<std::string, Entry>> out;
   for (const auto& child : node())
     out.emplace_back(Entry(document_, child.first).text(), Entry(document_, child.second));
+  if (base_)
+    for (auto& field : base_->fields())
+      if (!node()[field.first].IsDefined()) out.push_back(std::move(field));
   return out;
 }
 
@@ -153,6 +165,7 @@ void Entry::allow_only(std::initializer_list<std::string_view> known) const {
     key.complain("unknown key '" + key.text() + "'; known here: " + listed(known) +
                  words::did_you_mean(key.text(), {known.begin(), known.end()}));
   }
+  if (base_) base_->allow_only(known);
 }
 
 void Entry::fail(const std::string& what) const { throw FileError(place() + ": " + what); }

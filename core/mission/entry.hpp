@@ -41,12 +41,17 @@ class Entry {
   /// as load() does.
   static Entry parse(const std::string& text, const std::string& name, Findings* findings = nullptr);
 
+  /// Returns this mapping with what it does not hold itself taken from another one, key by key and not deeper: a key
+  /// that stands here counts, also where nothing stands behind it. Each value keeps the place and the file that it
+  /// came from. Throws FileError where one of the two is no mapping.
+  Entry with_base(const Entry& base) const;
+
   /// Returns the value of a key of a mapping; throws FileError if it is missing.
   Entry at(std::string_view key) const;
   std::optional<Entry> find(std::string_view key) const;
   /// Returns the items of a sequence.
   std::vector<Entry> items() const;
-  /// Returns the fields of a mapping, in the order of the file.
+  /// Returns the fields of a mapping, in the order of the file; those of its base come last.
   std::vector<std::pair<std::string, Entry>> fields() const;
   /// Reads the items of a sequence one by one.
   void each(const std::function<void(const Entry&)>& read) const;
@@ -89,6 +94,7 @@ class Entry {
 
   std::shared_ptr<const Document> document_;
   std::shared_ptr<const YAML::Node> node_;
+  std::shared_ptr<const Entry> base_;  ///< null: the mapping is whole
 };
 
 }  // namespace roci::mission

@@ -57,7 +57,7 @@ void require_file(const Entry& entry, const std::filesystem::path& file, const c
                    "; correct the name, or put it there");
 }
 
-ServiceEntry read_service(const Entry& entry, const std::vector<std::string>& robots) {
+ServiceEntry read_service(const Entry& entry, const Entry& mission, const std::vector<std::string>& robots) {
   entry.allow_only({"name", "program", "robot", "vendor", "settings", "clock", "standby", "essential",
                     "arguments", "rights"});
   ServiceEntry out;
@@ -71,8 +71,11 @@ ServiceEntry read_service(const Entry& entry, const std::vector<std::string>& ro
   }
   read_robot(entry, robots, out);
   out.vendor = entry.text_or("vendor", "");
-  out.settings = entry.resolve(entry.text_or("settings", kMissionFile));
-  if (const auto settings = entry.find("settings")) require_file(*settings, out.settings, "settings file");
+  out.settings = mission.resolve(kMissionFile);  // not that of its base
+  if (const auto settings = entry.find("settings")) {
+    out.settings = settings->resolve(settings->text());
+    require_file(*settings, out.settings, "settings file");
+  }
   if (const auto clock = entry.find("clock")) {
     if (clock->text() != "master") clock->complain("clock: " + clock->text() + "; the only value is master");
     out.clock_master = true;
@@ -144,7 +147,7 @@ ServiceList read_service_list(const Entry& mission) {
         "    - {name: exec_svc}");
   }
   list->each([&](const Entry& entry) {
-    ServiceEntry service = read_service(entry, out.robots);
+    ServiceEntry service = read_service(entry, mission, out.robots);
     if (out.find(service.name) != nullptr)
       entry.at("name").fail("service '" + service.name + "' stands twice");
     out.services.push_back(std::move(service));

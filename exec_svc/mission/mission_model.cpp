@@ -174,7 +174,7 @@ void read_model(const Entry& root, MissionModel& out) {
   out.domain_name = "unread";  // with findings: what speaks of it is not doubted
   out.model_text = whole_file(*domain_file);
   out.domain = std::make_shared<const pddl::Domain>(
-      read_domain(out.model_text, root.resolve(domain_file->text()).string()));
+      read_domain(out.model_text, domain_file->resolve(domain_file->text()).string()));
   out.domain_name = out.domain->name;
 }
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/mission/entry.hpp"
+#include "core/mission/mission_file.hpp"
 #include "services/clock/wall.hpp"
 #include "services/log/log.hpp"
 #include "services/security/key_folder.hpp"
@@ -41,7 +42,7 @@ std::filesystem::path key_folder(const std::string& given) {
 
 void apply_mission_file(const std::filesystem::path& folder, Connection& connection) {
   if (folder.empty()) return;
-  const auto mission = mission::Entry::load(folder / "mission.yaml");
+  const auto mission = mission::load_mission_file(folder);
   connection.dds = mission.text_or("dds", connection.dds);
 }
 

@@ -5,6 +5,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "core/mission/mission_file.hpp"
 #include "services/link/link_file.hpp"
 #include "services/process/time_settings.hpp"
 
@@ -112,7 +113,7 @@ ServiceOptions parse_service_options(int argc, const char* const* argv, const st
   if (options.node.run.empty()) options.node.run = environment("ROCI_RUN").value_or(options.node.mission);
   options.node.vendor = options.connection.dds;
   if (options.node.clock == clock::ClockMode::live)
-    options.time = read_time_settings(mission::Entry::load(options.run.mission / "mission.yaml"));
+    options.time = read_time_settings(mission::load_mission_file(options.run.mission));
   options.node.links = link::load_links(options.run.mission, options.run.scenario, options.run.seed);
   options.notify_socket = environment("NOTIFY_SOCKET").value_or("");
   if (options.run.pair.empty()) options.run.pair = pair_of(environment);

@@ -1,5 +1,6 @@
-// Reference Surface Mission 1 of the Europa lander, flown by every service as a process of its own: the scenarios of MEXEC, section V.B (R107–R109,
-// R112, R114, R124, R127). Built twice: with three scenarios for ./check, with all of them for ./check --full.
+// Both reference missions of the Europa lander, flown by every service as a process of its own: Basic Surface Mission 1, and Reference Surface
+// Mission 1 in the scenarios of MEXEC, section V.B (R107–R109, R112, R114, R124, R127). Built twice: with some scenarios for ./check, with all of
+// them for ./check --full.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -12,6 +13,7 @@
 #include <sstream>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "tests/scenario/flight.hpp"
@@ -22,7 +24,13 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::AnyOf, ::testing::Contains, ::testing::Each, ::testing::Ge, ::testing::Le;
 
-const std::string kMission = std::string(ROCI_SOURCE_DIR) + "/missions/europa";
+const std::string kMissions = std::string(ROCI_SOURCE_DIR) + "/missions/";
+
+/// Says for a flight by which mission and scenario it goes, where these are not `europa` and the flight's own name.
+const std::map<std::string, std::pair<std::string, std::string>> kElsewhere{
+    {"basic", {"europa-bsm1", "nominal"}},
+    {"autonomous", {"europa-autonomous", "nominal"}},
+};
 
 /// Is what a flight has done, read from the world's own record.
 class Course {
@@ -45,6 +53,23 @@ class Course {
   /// Returns "site_target" of each sample that was analyzed.
   std::vector<std::string> analyzed() const { return objects("analyze "); }
   std::vector<std::string> sites() const { return objects("excavate "); }
+  std::size_t count(const std::string& kind) const { return objects(kind + " ").size(); }
+  /// Returns how many blocks begin, and how many of them without an uplink since the one before that would have
+  /// released the hold.
+  std::pair<int, int> blocks_and_those_unreleased() const {
+    std::pair<int, int> out;
+    bool released = false, discarded = false;
+    for (const std::string& deed : deeds_) {
+      released |= deed.starts_with("receive p_uplink_");
+      const bool collects = deed.starts_with("collect "), discards = deed.starts_with("discard ");
+      if (!deed.starts_with("excavate ") && !collects && !discards) continue;
+      if (collects && std::exchange(discarded, false)) continue;  // the same block
+      discarded = discards;
+      ++out.first;
+      if (!std::exchange(released, false)) ++out.second;
+    }
+    return out;
+  }
 
  private:
   std::vector<std::string> objects(const std::string& kind) const {
@@ -122,7 +147,33 @@ using Rule = void (*)(const Course&);
 
 // What success is in each scenario. Sites go by value: 1, 0, 2; targets by their looks: 1 has 0, 1, 2, 0 has 2, 0, 1, 2 has 1, 2, 0.
 const std::map<std::string, Rule> kRules{
-    {"nominal", [](const Course& course) { EXPECT_FALSE(course.samples().empty()); }},
+    {"nominal",
+     [](const Course& course) {
+       EXPECT_FALSE(course.samples().empty());
+       const auto [blocks, unreleased] = course.blocks_and_those_unreleased();
+       EXPECT_THAT(blocks, Ge(6));
+       EXPECT_EQ(unreleased, 0) << "fully_autonomous is no";
+     }},
+    {"autonomous",
+     [](const Course& course) {
+       EXPECT_EQ(course.samples(), (std::vector<std::string>{"1 0", "0 2", "2 1"}));
+       EXPECT_THAT(course.blocks_and_those_unreleased().second, Ge(1)) << "no block waits for the ground";
+     }},
+    // R108.
+    {"basic",
+     [](const Course& course) {
+       EXPECT_EQ(course.sites(), std::vector<std::string>{"0"});
+       EXPECT_THAT(course.samples(), ::testing::UnorderedElementsAre("0 0", "0 1", "0 2"));
+       EXPECT_THAT(course.count("panorama"), Ge(5U)) << "one now and then";
+       EXPECT_THAT(course.count("start"), Ge(5U)) << "days of seismometry";
+       EXPECT_EQ(course.count("receive"), 0U) << "there is no ground";
+       EXPECT_TRUE(course.has("downlink quakes"));
+     }},
+    // From the uplink on one target at each site, though each has a signature; the one before is the first at its site.
+    {"ground_one_target",
+     [](const Course& course) {
+       EXPECT_EQ(course.samples(), (std::vector<std::string>{"1 0", "0 2", "2 1"}));
+     }},
     {"all_positive",
      [](const Course& course) {
        const std::vector<std::string> order{"1 0", "1 1", "1 2", "0 2", "0 0", "0 1", "2 1", "2 2", "2 0"};
@@ -184,9 +235,10 @@ std::string name_of(const ::testing::TestParamInfo<Europa::ParamType>& test) {
 }
 
 #ifdef ROCI_ALL_SCENARIOS
-const auto kScenarios = ::testing::Values("nominal", "all_positive", "all_negative", "first_negative",
-                                          "low_start", "sudden_low", "ground_reorders", "more_decisional",
-                                          "more_mandatory", "comm_energy_35", "cold_85K", "slow_downlink");
+const auto kScenarios =
+    ::testing::Values("nominal", "all_positive", "all_negative", "first_negative", "low_start", "sudden_low",
+                      "ground_reorders", "more_decisional", "more_mandatory", "comm_energy_35", "cold_85K",
+                      "slow_downlink", "ground_one_target", "autonomous", "basic");
 INSTANTIATE_TEST_SUITE_P(AllScenarios, Europa,
                          ::testing::Combine(kScenarios,
                                             ::testing::Values("inproc", "fastdds", "cyclonedds", "mixed")),
@@ -197,7 +249,7 @@ INSTANTIATE_TEST_SUITE_P(Scenarios, Europa,
                                             ::testing::Values("fastdds", "cyclonedds", "mixed")),
                          name_of);
 INSTANTIATE_TEST_SUITE_P(Alone, Europa,
-                         ::testing::Combine(::testing::Values("first_negative", "sudden_low"),
+                         ::testing::Combine(::testing::Values("first_negative", "sudden_low", "basic"),
                                             ::testing::Values("inproc")),
                          name_of);
 #endif

@@ -104,7 +104,7 @@ planner::utility_htn::model::Network sized_network(const fs::path& mission, std:
                                                    std::size_t targets) {
   using planner::utility_htn::reading::load_network;
   if (sites == 3 && targets == 3) return load_network(mission / "network-rsm1.yaml");
-  std::string network = read(mission / "network-rsm1.yaml"), model = read(mission / "model.yaml"),
+  std::string network = read(mission / "rsm1.yaml"), model = read(mission / "model.yaml"),
               earth = read(mission / "earth.yaml"), lander = read(mission / "lander.yaml");
   const std::string share = std::to_string(static_cast<double>(sites) / 3);
   const std::size_t views = 7 * sites / 3;
@@ -120,7 +120,8 @@ planner::utility_htn::model::Network sized_network(const fs::path& mission, std:
   replace(model, "22 * 86400", "22 * 86400 * " + share);
   replace(model, "range: [86400, 6000000]", "range: [86400, 60000000]");
   const Folder folder;
-  write(folder.path() / "network-rsm1.yaml", network);
+  write(folder.path() / "rsm1.yaml", network);
+  write(folder.path() / "network-rsm1.yaml", read(mission / "network-rsm1.yaml"));
   write(folder.path() / "model.yaml", model);
   write(folder.path() / "earth.yaml", earth);
   write(folder.path() / "lander.yaml", lander);

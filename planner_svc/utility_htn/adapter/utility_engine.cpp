@@ -112,7 +112,8 @@ void UtilityEngine::hear(const StepInputs& inputs) {
   if (inputs.executed) go_on_with(*inputs.executed, inputs.now);
   for (const Goal& goal : inputs.goals) hear_goal(goal);
   for (const engine::EndedGoal& ended : inputs.ended_goals) hear_end(ended);
-  for (const engine::Observation& observation : inputs.observations) hear_observation(observation);
+  for (const engine::Observation& observation : inputs.observations)
+    if (!inputs.executed || !tasks_move(observation.timeline)) hear_observation(observation);
   for (const engine::StepStatus& step : inputs.steps) hear_step(step, inputs.now);
   for (const engine::CommandResult& result : inputs.results)
     if (task_of(result.activity)) measurements_.hear(result);
@@ -155,14 +156,27 @@ void UtilityEngine::hear_end(const engine::EndedGoal& ended) {
   std::erase_if(blocking_, [&](const auto& one) { return one.issuer == ended.issuer && one.id == ended.id; });
 }
 
+// Of an internal timeline only the ground says anything, and its word counts as that of who reports. Claims are nobody's to set.
 void UtilityEngine::hear_observation(const engine::Observation& observation) {
   newest_.insert_or_assign(observation.timeline, observation.value);
   const auto timeline =
       std::ranges::find(network_.timelines, observation.timeline, &temporal::timelines::Definition::name);
-  if (timeline == network_.timelines.end() || !timeline->reported) return;
-  if (const auto number = number_of(*timeline, observation.value))
+  if (timeline == network_.timelines.end() || timeline->is_claim()) return;
+  if (const auto number = number_of(*timeline, observation.value)) {
     cycle_->observe(static_cast<temporal::timelines::Index>(timeline - network_.timelines.begin()),
                     observation.sampled, *number);
+    if (!timeline->reported) to_tell_ = true;  // the plan keeps it for who comes after
+  }
+}
+
+// What tasks have made of an internal timeline since the ground has set it stands in the plan that is executed.
+bool UtilityEngine::tasks_move(const std::string& timeline) const {
+  const auto known = std::ranges::find(network_.timelines, timeline, &temporal::timelines::Definition::name);
+  if (known == network_.timelines.end() || known->reported) return false;
+  const auto index = static_cast<temporal::timelines::Index>(known - network_.timelines.begin());
+  return std::ranges::any_of(network_.tasks, [&](const model::Task& task) {
+    return std::ranges::any_of(task.impacts, [&](const auto& impact) { return impact.timeline == index; });
+  });
 }
 
 void UtilityEngine::hear_product(const engine::DataProduct& product) {
@@ -240,7 +254,8 @@ void UtilityEngine::go_on_with(const FlexiblePlan& executed, Time now) {
       points_.set(Points::kInitial, activity.start_point, activity.end_point);
     }
   cycle_->resume(recovered.past, std::move(recovered.blocks), recovered.last_block, now);
-  for (const auto& [timeline, value] : std::map(newest_)) hear_observation({timeline, value, now});
+  for (const auto& [timeline, value] : std::map(newest_))
+    if (!tasks_move(timeline)) hear_observation({timeline, value, now});
   versions_.resume(executed);
   next_cycle_ = now;
 }

@@ -44,6 +44,7 @@ class UtilityEngine final : public engine::SteppedEngine {
   void hear_goal(const engine::Goal& goal);
   void hear_end(const engine::EndedGoal& ended);
   void hear_observation(const engine::Observation& observation);
+  bool tasks_move(const std::string& timeline) const;
   void hear_product(const engine::DataProduct& product);
   void hear_step(const engine::StepStatus& step, temporal::Time now);
   void hear_receipt(const engine::Receipt& receipt, temporal::Time now);

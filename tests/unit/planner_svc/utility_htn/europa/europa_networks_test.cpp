@@ -74,10 +74,36 @@ std::vector<std::string> labels(const std::vector<std::string>& ids) {
 }
 
 TEST(EuropaNetworks, AllAreUsableWithoutAWarning) {
-  for (const char* file : {"network.yaml", "network-bsm1.yaml", "network-rsm1.yaml"}) {
+  for (const char* file : {"network.yaml", "network-bsm1.yaml", "network-rsm1.yaml",
+                           "network-one-target.yaml", "network-autonomous.yaml"}) {
     mission::Findings findings;
     EXPECT_TRUE(reading::load_network(kMission / file, findings)) << file;
     for (const auto& finding : findings.all()) ADD_FAILURE() << finding.text();
+  }
+}
+
+TEST(EuropaNetworks, TheGroundSendsTheNetworkOfOneTargetAsItStandsInItsFile) {
+  const Network sent = reading::load_network(kMission / "scenarios/one-target.htn");
+  const Network written = Europa("network-one-target.yaml").network,
+                before = Europa("network-rsm1.yaml").network;
+  EXPECT_TRUE(sent == written) << "pack network-one-target.yaml anew";
+  EXPECT_EQ(sent.subway.most_samples, 1U);
+  EXPECT_GT(sent.version, before.version);
+  Network back = sent;  // nothing else is different
+  back.version = before.version;
+  back.subway.most_samples = before.subway.most_samples;
+  EXPECT_TRUE(back == before);
+}
+
+// R109.
+TEST(EuropaNetworks, TheFlagIsYesFromTheBeginningWhereTheNetworkSaysSo) {
+  for (const auto& [file, initial] :
+       {std::pair("network-rsm1.yaml", "no"), std::pair("network-autonomous.yaml", "yes")}) {
+    const Network network = Europa(file).network;
+    const auto flag =
+        std::ranges::find(network.timelines, "fully_autonomous", &temporal::timelines::Definition::name);
+    ASSERT_NE(flag, network.timelines.end());
+    EXPECT_EQ(flag->states.at(static_cast<std::size_t>(flag->initial)), initial) << file;
   }
 }
 
