@@ -203,8 +203,12 @@ class TaskFlight {
   bool step_executive() {
     const bool due = executive_wake_ && *executive_wake_ <= now_;
     std::vector<CommandAck> acks;
-    for (auto end = ends_.begin(); end != ends_.end() && end->first <= now_; end = ends_.erase(end))
+    for (auto end = ends_.begin(); end != ends_.end() && end->first <= now_; end = ends_.erase(end)) {
       acks.push_back(end->second);
+      const Task* const task = task_of(end->second.activity);
+      if (task != nullptr && end->second.stage == CommandStage::completed)
+        report_effects(*task, temporal::ImpactWhen::at_end);
+    }
     if (stepped_ && !due && acks.empty() && inputs_.observations.empty() && inputs_.acks.empty())
       return false;
     stepped_ = true;
@@ -248,7 +252,7 @@ class TaskFlight {
       if (flight_.succeeded) flight_.succeeded(task->id);
       if (const auto id = adapter::task_of(status.activity)) succeeded_.insert(*id);
       count_blocks(status.activity);
-      report_effects(*task, temporal::ImpactWhen::at_end);
+      if (task->commands.empty()) report_effects(*task, temporal::ImpactWhen::at_end);
     }
     observe(budget_, left_);
   }
