@@ -113,7 +113,10 @@ class Europa : public ::testing::TestWithParam<std::tuple<std::string, std::stri
 
   Flight flight_of(const std::string& of, const std::string& transport) const {
     fs::remove_all(folder_);
-    return fly(kMission, transport, 1, "--scenario " + of + " --run-folder " + folder_.string());
+    const auto elsewhere = kElsewhere.find(of);
+    const auto& [mission, file] =
+        elsewhere == kElsewhere.end() ? std::pair<std::string, std::string>("europa", of) : elsewhere->second;
+    return fly(kMissions + mission, transport, 1, "--scenario " + file + " --run-folder " + folder_.string());
   }
   /// Returns the trace of the same scenario over inproc, and what came home then.
   static std::pair<std::string, double>& reference(const std::string& of) {
