@@ -157,6 +157,18 @@ v1::ArmMotionRequest to_wire(const world::MotionWanted& motion) {
   return out;
 }
 
+v1::Order to_wire(const scenario::ValueStimulus& value) {
+  v1::Order out;
+  out.issuer(value.issuer);
+  out.id(value.id);
+  out.robot(value.robot);
+  out.order_kind(v1::ORDER_SET_VALUE);
+  out.target(value.timeline);
+  out.content(services::wire::to_wire(value.value));
+  out.autonomy(v1::AUTONOMY_E4);
+  return out;
+}
+
 v1::NetworkOrder to_wire(const scenario::NetworkStimulus& network) {
   v1::NetworkOrder out;
   out.issuer(network.issuer);

@@ -57,10 +57,21 @@ struct NetworkStimulus {
   double value = 0;
 };
 
+/// Is what the ground sets by an order (docs/orders.md).
+struct ValueStimulus {
+  std::string issuer;
+  std::string id;
+  std::string robot;  ///< whose executive; empty: the only one
+  std::string timeline;
+  temporal::Value value;
+};
+
 /// Is something that the scenario lets happen at a time.
 struct Stimulus {
   temporal::Time at{};
-  std::variant<GoalStimulus, RecallStimulus, HazardStimulus, NetworkStimulus, world::Disturbance> what;
+  std::variant<GoalStimulus, RecallStimulus, HazardStimulus, NetworkStimulus, ValueStimulus,
+               world::Disturbance>
+      what;
   /// Is where a ComponentMishap, HollowSuccess or ViewBlock stands in the file.
   std::optional<mission::Entry> entry{};
 };

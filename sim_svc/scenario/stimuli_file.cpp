@@ -1,6 +1,7 @@
 #include "sim_svc/scenario/stimuli_file.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <fstream>
 #include <set>
 #include <utility>
@@ -96,6 +97,27 @@ NetworkStimulus read_parameter(const Entry& entry) {
           entry.at("name").text(),           entry.at("value").number()};
 }
 
+// As `roci order set` reads it: a truth, a number, or the name of a state.
+ValueStimulus read_set(const Entry& entry) {
+  entry.allow_only({"issuer", "id", "robot", "timeline", "value"});
+  ValueStimulus out{entry.text_or("issuer", "ground"),
+                    entry.at("id").text(),
+                    entry.text_or("robot", ""),
+                    entry.at("timeline").text(),
+                    {}};
+  const std::string text = entry.at("value").text();
+  double number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (text == "true" || text == "false") {
+    out.value = text == "true";
+  } else if (error == std::errc{} && end == text.data() + text.size()) {
+    out.value = number;
+  } else {
+    out.value = temporal::state(text);
+  }
+  return out;
+}
+
 HazardStimulus read_hazard(const Entry& entry) {
   entry.allow_only({"id", "x", "y", "radius"});
   return {entry.at("id").text(),
@@ -179,18 +201,19 @@ const RobotEntry& robot_of(const Entry& entry, const Roster& roster) {
 }
 
 Stimulus read_stimulus(const Entry& entry, const Roster& roster) {
-  entry.allow_only(
-      {"at_s",    "robot",          "goal",         "recall",           "hazard",       "fault",
-       "rock",    "battery_loss_j", "battery_to_j", "module_fails",     "slot_blocked", "slow_joint",
-       "eclipse", "network",        "parameter",    "trench_collapses", "hollow",       "surroundings",
-       "heat",    "rate",           "blocked_view"});
+  entry.allow_only({"at_s",         "robot",        "goal",         "recall",
+                    "hazard",       "fault",        "rock",         "battery_loss_j",
+                    "battery_to_j", "module_fails", "slot_blocked", "slow_joint",
+                    "eclipse",      "network",      "parameter",    "trench_collapses",
+                    "hollow",       "surroundings", "heat",         "set",
+                    "rate",         "blocked_view"});
   const std::size_t frame = entry.find("robot") ? 2 : 1;
   if (entry.fields().size() != frame + 1) {
     entry.fail(
         "a stimulus is at_s (and robot) and one of goal, recall, hazard, fault, rock, battery_loss_j, "
         "battery_to_j, "
         "module_fails, slot_blocked, slow_joint, eclipse, network, parameter, trench_collapses, hollow, "
-        "surroundings, heat, rate, blocked_view; split it into several");
+        "surroundings, heat, rate, blocked_view, set; split it into several");
   }
   Stimulus out;
   out.at = time_of(entry.at("at_s"));
@@ -199,6 +222,7 @@ Stimulus read_stimulus(const Entry& entry, const Roster& roster) {
   if (const auto hazard = entry.find("hazard")) out.what = read_hazard(*hazard);
   if (const auto network = entry.find("network")) out.what = read_network(*network);
   if (const auto parameter = entry.find("parameter")) out.what = read_parameter(*parameter);
+  if (const auto value = entry.find("set")) out.what = read_set(*value);
   if (const auto fault = entry.find("fault")) {
     out.what = Disturbance{read_fault(*fault, robot_of(entry, roster), out.at)};
   }

@@ -162,6 +162,11 @@ const std::map<std::string, Rule> kRules{
        EXPECT_EQ(course.samples(), (std::vector<std::string>{"1 0", "0 2", "2 1"}));
        EXPECT_THAT(course.blocks_and_those_unreleased().second, Ge(1)) << "no block waits for the ground";
      }},
+    {"ground_lets_go",
+     [](const Course& course) {
+       EXPECT_EQ(course.samples(), (std::vector<std::string>{"1 0", "0 2", "2 1"}));
+       EXPECT_THAT(course.blocks_and_those_unreleased().second, Ge(1)) << "no block waits any more";
+     }},
     // R108.
     {"basic",
      [](const Course& course) {
@@ -241,7 +246,7 @@ std::string name_of(const ::testing::TestParamInfo<Europa::ParamType>& test) {
 const auto kScenarios =
     ::testing::Values("nominal", "all_positive", "all_negative", "first_negative", "low_start", "sudden_low",
                       "ground_reorders", "more_decisional", "more_mandatory", "comm_energy_35", "cold_85K",
-                      "slow_downlink", "ground_one_target", "autonomous", "basic");
+                      "slow_downlink", "ground_one_target", "ground_lets_go", "autonomous", "basic");
 INSTANTIATE_TEST_SUITE_P(AllScenarios, Europa,
                          ::testing::Combine(kScenarios,
                                             ::testing::Values("inproc", "fastdds", "cyclonedds", "mixed")),

@@ -237,5 +237,41 @@ TEST_F(ModelChanges, AMeasurementOutOfRangeIsNamedAndNotBelieved) {
   EXPECT_THAT(step(std::move(inputs)).doubted, ElementsAre(HasSubstr("'dig_s_near' would be 8000")));
 }
 
+// R109: the flag is internal, since no part of the lander reports it.
+class TheWordOfTheGround : public ::testing::Test {
+ protected:
+  FlexiblePlan plan_after(const std::vector<engine::Observation>& said) const {
+    UtilityEngine engine({"utility_htn", "lander", "", ""},
+                         reading::load_network(ROCI_SOURCE_DIR "/missions/europa/network-rsm1.yaml"));
+    StepInputs inputs;
+    inputs.now = temporal::seconds(10);
+    inputs.goals.push_back(mission());
+    inputs.receipt = engine::Receipt{0, 0, "", "", true};
+    inputs.observations = said;
+    const StepOutput out = engine.step(inputs);
+    FlexiblePlan plan;
+    EXPECT_TRUE(out.delta && temporal::apply(*out.delta, plan).empty());
+    return plan;
+  }
+  static std::ptrdiff_t starts(const FlexiblePlan& plan, const std::string& task) {
+    return std::ranges::count_if(plan.activities,
+                                 [&](const PlanActivity& one) { return one.id.starts_with(task + "#"); });
+  }
+};
+
+TEST_F(TheWordOfTheGround, OnAnInternalTimelineIsPlannedFor) {
+  const FlexiblePlan waits = plan_after({});
+  EXPECT_GT(starts(waits, "p_start_nfa"), 0);
+  EXPECT_EQ(starts(waits, "p_start"), 0);
+  const FlexiblePlan goes = plan_after({{"fully_autonomous", temporal::state("yes"), temporal::seconds(10)}});
+  EXPECT_EQ(starts(goes, "p_start_nfa"), 0);
+  EXPECT_GT(starts(goes, "p_start"), 0);
+}
+
+TEST_F(TheWordOfTheGround, OnAClaimCountsForNothing) {
+  const engine::Observation claim{"radio", 1.0, temporal::seconds(10)};
+  EXPECT_EQ(plan_after({claim}), plan_after({}));
+}
+
 }  // namespace
 }  // namespace roci::planner::utility_htn::adapter
