@@ -66,7 +66,6 @@ class SimService final : public services::Service, private owner::Driver {
         hazards_(services::advertise(node, topics::hazard)),
         goals_(services::advertise(node, topics::goal)),
         network_orders_(services::advertise(node, topics::network_order)),
-        orders_(services::advertise(node, topics::order)),
         events_(services::advertise(node, topics::event)) {
     commands_.leave_stops_to_driver();  // the world knows its components
     // A live robot outlives the process that speaks for it. A simulated clock ends with its process.
@@ -88,6 +87,10 @@ class SimService final : public services::Service, private owner::Driver {
       tell(world_.heed(node_.now(), wire::schedule_of(schedule)));
     });
     node.at(Time{}, [this] { tell(world_.advance(node_.now())); });
+    // In a secure run orders are the console's alone, so only who needs this asks for it.
+    for (const Stimulus& stimulus : scenario_.stimuli)
+      if (!orders_ && std::holds_alternative<ValueStimulus>(stimulus.what))
+        orders_.emplace(services::advertise(node, topics::order));
     for (const Stimulus& stimulus : scenario_.stimuli) {
       node.at(stimulus.at, [this, &stimulus] { stimulate(stimulus); });
     }
@@ -212,7 +215,7 @@ class SimService final : public services::Service, private owner::Driver {
                            RockSeen{hazard.id, "", rock.x, rock.y, rock.radius, node_.now()}, kGround));
                      },
                      [this](const NetworkStimulus& order) { network_orders_.write(wire::to_wire(order)); },
-                     [this](const ValueStimulus& value) { orders_.write(wire::to_wire(value)); },
+                     [this](const ValueStimulus& value) { orders_->write(wire::to_wire(value)); },
                      [this, &stimulus](const world::Disturbance& disturbance) {
                        // An earlier process has suffered this already; a fall of rocks is no part of its memory.
                        if (world::adds_up(disturbance) && goes_on_from_ && stimulus.at <= *goes_on_from_)
@@ -326,7 +329,7 @@ class SimService final : public services::Service, private owner::Driver {
   services::Publisher<v1::Hazard> hazards_;
   services::Publisher<v1::Goal> goals_;
   services::Publisher<v1::NetworkOrder> network_orders_;
-  services::Publisher<v1::Order> orders_;
+  std::optional<services::Publisher<v1::Order>> orders_;  ///< of scenarios that set values
   services::Publisher<v1::Event> events_;
   std::map<std::pair<std::string, std::string>, const GoalStimulus*> uploaded_;  // by issuer and id
   std::size_t stimuli_done_ = 0;

@@ -70,7 +70,7 @@ std::vector<TopicRights> make_table() {
       row(topics::mission_status,  {executive},                              {listener, world, launcher, console}),
       row(topics::function_offer,  {path_planner, arm_planner, functions},   {executive, planner, listener, console}),
 
-      row(topics::order,           {world, console},                         {executive}),
+      row(topics::order,           {console},                                {executive}),
       row(topics::order_status,    {executive},                              {console}),
       row(topics::decision,        {executive},                              {resolver, console}),
       row(topics::decision_answer, {resolver},                               {executive}),
