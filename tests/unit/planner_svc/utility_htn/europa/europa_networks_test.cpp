@@ -83,7 +83,7 @@ TEST(EuropaNetworks, AllAreUsableWithoutAWarning) {
 }
 
 TEST(EuropaNetworks, TheGroundSendsTheNetworkOfOneTargetAsItStandsInItsFile) {
-  const Network sent = reading::load_network(kMission / "scenarios/one-target.htn");
+  const Network sent = reading::load_network(kMission / "one-target.htn");
   const Network written = Europa("network-one-target.yaml").network,
                 before = Europa("network-rsm1.yaml").network;
   EXPECT_TRUE(sent == written) << "pack network-one-target.yaml anew";
