@@ -30,8 +30,9 @@ class RociPlanProgram : public ::testing::Test {
 
   // Returns its exit code; what it says stands in the files `out` and `err`.
   int run(const std::string& arguments) {
-    const std::string command =
-        "cd '" + folder_.string() + "' && '" ROCI_BINARY_DIR "/bin/roci-plan' " + arguments + " > out 2> err";
+    const std::string command = "cd '" + folder_.string() +
+                                "' && \"${ROCI_BIN:-" ROCI_BINARY_DIR "/bin}/roci-plan\" " + arguments +
+                                " > out 2> err";
     return WEXITSTATUS(std::system(command.c_str()));
   }
 
