@@ -48,9 +48,7 @@ Ending Laboratory::begin(const world::Task& task, Time now, Surroundings& around
                    "the sample " + id_of(sample) + " is not in the inlet; transport it there first"};
   const double duration = settings_.duration_factor * noise_.factor(settings_.duration_noise);
   const double power = noise_.factor(settings_.power_noise);
-  Phase warming;
-  warming.until = Phase::Until::warm;
-  std::vector<Phase> phases{warming};
+  std::vector<Phase> phases{Phase::warming()};
   for (const Instrument& one : settings_.instruments)
     phases.push_back(
         {Phase::Until::over, duration * one.duration_s, power * one.power_w, power * one.heat_w});

@@ -20,6 +20,8 @@ struct Phase {
   double work_s = 0;          ///< at the usual pace
   double power_w = 0;         ///< drawn while it lasts, slowed or not
   double heat_w = 0;          ///< of it, left in the zone
+  /// Returns the phase in which a task waits for its zone.
+  static Phase warming() { return {Until::warm}; }
 };
 
 /// Runs the phases of one task after another. It holds its zone for work from the begin to the end of a task; without a zone, or

@@ -86,9 +86,7 @@ std::vector<Phase> SamplingArm::phases_of(const Run& run, double noise) const {
     travel = std::max(travel, std::abs(run.to[i] - run.from[i]));
   const double factor = settings_.duration_factor * noise;
   const auto lasting = [&](double seconds, double power_w) { return work(factor * seconds, power_w); };
-  Phase warming;
-  warming.until = Phase::Until::warm;
-  std::vector<Phase> out{warming, lasting(travel / settings_.joint_speed_rad_s, settings_.arm_w)};
+  std::vector<Phase> out{Phase::warming(), lasting(travel / settings_.joint_speed_rad_s, settings_.arm_w)};
   if (run.command == "prepare")
     out.push_back(lasting(settings_.prepare_s, settings_.arm_w + settings_.prepare_w));
   if (run.command == "transport")

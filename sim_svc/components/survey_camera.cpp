@@ -24,10 +24,8 @@ Ending SurveyCamera::begin(const world::Task& task, Time now, Surroundings& arou
   const double duration_s =
       survey.duration_s * settings_.duration_factor * noise_.factor(settings_.duration_noise);
   const double power = noise_.factor(settings_.power_noise);
-  Phase warming;
-  warming.until = Phase::Until::warm;
   const Phase looking{Phase::Until::over, duration_s, power * survey.power_w, power * survey.heat_w};
-  if (Ending refused = phases_.begin({warming, looking}, now, around.body)) return refused;
+  if (Ending refused = phases_.begin({Phase::warming(), looking}, now, around.body)) return refused;
   run_ = task;
   around.deeds.push_back({task.command, task.arguments.contains("site") ? task.arguments.at("site") : ""});
   return std::nullopt;

@@ -9,7 +9,6 @@
 #include <filesystem>
 #include <map>
 #include <ostream>
-#include <set>
 #include <sstream>
 #include <string>
 #include <tuple>
@@ -22,7 +21,7 @@ namespace roci::scenario {
 namespace {
 
 namespace fs = std::filesystem;
-using ::testing::AnyOf, ::testing::Contains, ::testing::Each, ::testing::Ge, ::testing::Le;
+using ::testing::Each, ::testing::Ge, ::testing::Le;
 
 const std::string kMissions = std::string(ROCI_SOURCE_DIR) + "/missions/";
 
@@ -39,9 +38,6 @@ class Course {
 
   const std::vector<std::string>& deeds() const { return deeds_; }
   bool has(const std::string& deed) const { return std::ranges::find(deeds_, deed) != deeds_.end(); }
-  std::size_t place(const std::string& deed) const {
-    return static_cast<std::size_t>(std::ranges::find(deeds_, deed) - deeds_.begin());
-  }
   /// Returns "site target" of each sample, in the order of their collection.
   std::vector<std::string> samples() const { return objects("collect "); }
   std::vector<std::string> samples_at(const std::string& site) const {

@@ -30,6 +30,8 @@ struct Definition {
   bool reported = true;  ///< by the spacecraft; otherwise an internal state, which only tasks change (R73)
   /// Returns whether its value follows from the tasks that run, and from nothing else.
   bool is_claim() const { return !reported && (kind == Kind::atomic || kind == Kind::claimable); }
+  /// Returns whether its value is what tasks have left it at, so that somebody must remember it.
+  bool is_remembered() const { return !reported && !is_claim(); }
   friend bool operator==(const Definition&, const Definition&) = default;
 };
 

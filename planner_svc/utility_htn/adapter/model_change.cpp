@@ -51,8 +51,9 @@ cycle::Past past_for(const Network& next, const Network& before, const cycle::Cy
   for (const auto& timeline : next.timelines) {
     const auto same = index_of(before.timelines, timeline.name, &temporal::timelines::Definition::name);
     const auto value =
-        same && !timeline.is_claim() ? number_of(timeline, value_of(before.timelines[*same], cycle.timelines().value(*same, now)))
-             : std::nullopt;
+        same && !timeline.is_claim()
+            ? number_of(timeline, value_of(before.timelines[*same], cycle.timelines().value(*same, now)))
+            : std::nullopt;
     out.internal.push_back(value.value_or(timeline.initial));
   }
   return out;

@@ -214,7 +214,7 @@ FlexiblePlan plan_of(const model::Network& network, const flattening::Chains& ch
     if (past.values[i] != network.parameters[i].prior)
       remember("parameter." + network.parameters[i].name, past.values[i]);
   for (std::size_t i = 0; i < network.timelines.size(); ++i)
-    if (!network.timelines[i].reported && !network.timelines[i].is_claim())
+    if (network.timelines[i].is_remembered())
       remember("internal." + network.timelines[i].name, value_of(network.timelines[i], past.internal[i]));
   for (const std::string& activity : frame.measured) remember("measured." + activity, true);
   out.point_count = points.count();

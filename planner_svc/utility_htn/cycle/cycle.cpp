@@ -171,8 +171,7 @@ void Cycle::resume(const Past& past, std::vector<Block> blocks, std::uint32_t la
   last_block_ = last_block;
   timelines_ = temporal::timelines::Timelines(network_.timelines, now);
   for (Index i = 0; i < network_.timelines.size(); ++i)
-    if (!network_.timelines[i].reported && !network_.timelines[i].is_claim())
-      timelines_.observe(i, now, past_.internal[i]);
+    if (network_.timelines[i].is_remembered()) timelines_.observe(i, now, past_.internal[i]);
   blocks_ = std::move(blocks);
   for (const Block& one : blocks_) put_in(one);
   to_schedule_ = to_optimize_ = true;
@@ -314,8 +313,7 @@ bool Cycle::consolidate(Time now) {
   timelines_.consolidate(now);
   const temporal::timelines::Kept after = timelines_.kept();
   for (Index i = 0; i < network_.timelines.size(); ++i)
-    if (!network_.timelines[i].reported && !network_.timelines[i].is_claim())
-      past_.internal[i] = timelines_.value(i, now);
+    if (network_.timelines[i].is_remembered()) past_.internal[i] = timelines_.value(i, now);
   return after.tasks != before.tasks || after.events != before.events || after.asks != before.asks;
 }
 
@@ -396,8 +394,9 @@ void Cycle::fit_downlinks() {
     for (std::size_t i = 0; i < one.links.size(); ++i) {
       Link& each = one.links[i];
       if (each.stage != Stage::planned || !one.begun() || one.failed()) continue;
-      if (each.end - each.start == length(one, i)) continue;
-      each.end = each.start + length(one, i);
+      const Duration takes = length(one, i);
+      if (each.end - each.start == takes) continue;
+      each.end = each.start + takes;
       timelines_.move(task_id(one.number, i), each.start, each.end);
       to_optimize_ = true;
     }
@@ -450,10 +449,7 @@ bool Cycle::end_with_budget(Time now, Report& report) {
     if (one.links.size() != 1 || one.links.front().stage != Stage::running) continue;
     Link& load = one.links.front();
     const model::Task& task = network_.tasks[load.task];
-    double power = 0;
-    for (const model::Impact& impact : task.impacts)
-      if (impact.timeline == network_.budget && impact.kind == temporal::ImpactKind::rate)
-        power -= model::evaluate(impact.amount, past_.values);
+    const double power = model::draw(network_, task, past_.values);
     if (!task.commands.empty() || power <= 0 || load.end <= now) continue;
     const double left = timelines_.value(network_.budget, now) - definition.lowest;
     if (left > power * temporal::to_seconds(load.end - now)) continue;

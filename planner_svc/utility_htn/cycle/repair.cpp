@@ -13,6 +13,7 @@ using temporal::Duration, temporal::Time;
 namespace {
 
 constexpr char kNoLongerFits[] = "it no longer fits";
+constexpr char kNoTimeLeft[] = "no time is left at which the rest of it fits";
 
 }  // namespace
 
@@ -94,7 +95,7 @@ bool Cycle::repair(Time now, Report& report) {
       drop(*gives_way, kNoLongerFits, report);
     } else if (const std::uint32_t number = gives_way->number;
                !shifted.insert(number).second || !make_room(number, from, report)) {
-      abandon(*block(number), "no time is left at which the rest of it fits", report);
+      abandon(*block(number), kNoTimeLeft, report);
     }
   }
   if (changed && to_schedule_) schedule(now, report);
@@ -165,8 +166,7 @@ bool Cycle::keep_order(Time now, Report& report) {
     if (one.begun() && !one.failed() && out_of_order(one)) late.push_back(one.number);
   for (const std::uint32_t number : late) {
     if (settings_.repairs) {
-      if (!make_room(number, from, report))
-        abandon(*block(number), "no time is left at which the rest of it fits", report);
+      if (!make_room(number, from, report)) abandon(*block(number), kNoTimeLeft, report);
     } else if (!shift(*block(number), from)) {
       push(*block(number), from);
     }

@@ -34,16 +34,11 @@ std::uint32_t Rules::sol_of(temporal::Time time, const model::Values& values) co
 }
 
 downlink::Window Rules::window(const search::PlannedDownlink& planned, const model::Values& values) const {
-  const model::Task& task = network_->tasks[planned.task];
-  double watts = 0;
-  for (const model::Impact& impact : task.impacts)
-    if (impact.timeline == network_->budget && impact.kind == temporal::ImpactKind::rate)
-      watts -= model::evaluate(impact.amount, values);
   downlink::Window out;
   out.start = planned.start;
   out.latest_end = std::max(planned.start, planned.end);
   out.bytes_per_s = bytes_per_s(values);
-  out.power_w = std::max(0.0, watts);
+  out.power_w = std::max(0.0, model::draw(*network_, network_->tasks[planned.task], values));
   out.energy_limit_j = downlink_limit_j(values);
   out.sol = sol_of(planned.start, values);
   if (out.bytes_per_s <= 0) {  // a silent radio carries nothing, at whatever rate

@@ -43,6 +43,14 @@ double cost(const Network& network, const Task& task, const Values& values) {
   return out;
 }
 
+double draw(const Network& network, const Task& task, const Values& values) {
+  double out = 0;
+  for (const Impact& impact : task.impacts)
+    if (impact.timeline == network.budget && impact.kind == ImpactKind::rate)
+      out -= evaluate(impact.amount, values);
+  return out;
+}
+
 temporal::RankVector utility(const Task& task, const Values& values) {
   std::vector<double> scores;
   scores.reserve(task.utility.size());
