@@ -145,6 +145,8 @@ void Calls::start(const methods::TransformCall& call) {
 
 void Calls::start(const methods::ObserveCall&) { look(); }
 
+void Calls::start(const methods::WaitCall& call) { answer_after(call.time, {}); }
+
 // What is awaited may be so already, or become so by any observation.
 void Calls::look() {
   const auto* call = std::get_if<methods::ObserveCall>(&call_.what);
@@ -171,8 +173,8 @@ void Calls::break_off() {
   answer_soon({timed_out_ ? "call-timeout" : "cancelled", "it was awaited no longer", {}, {}});
 }
 
-void Calls::answer_soon(Answer result) {
-  node_.after(temporal::Duration(0), [this, serial = serial_, result = std::move(result)] {
+void Calls::answer_after(temporal::Duration wait, Answer result) {
+  node_.after(wait, [this, serial = serial_, result = std::move(result)] {
     if (serial == serial_ && on_answer_) answer(result);
   });
 }

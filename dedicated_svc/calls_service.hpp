@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "dedicated_svc/call_record_service.hpp"
 #include "dedicated_svc/method_run/method_run.hpp"
@@ -46,10 +47,12 @@ class Calls {
   void start(const methods::PathCall& call);
   void start(const methods::TransformCall& call);
   void start(const methods::ObserveCall& call);
+  void start(const methods::WaitCall& call);
   void look();
   void time_out();
   void answer(method_run::Answer answer);
-  void answer_soon(method_run::Answer answer);
+  void answer_after(temporal::Duration wait, method_run::Answer answer);
+  void answer_soon(method_run::Answer answer) { answer_after(temporal::Duration(0), std::move(answer)); }
   void take_path(const services::CallResult<v1::PathReply>& result);
   std::optional<Spot> spot_of(const methods::Place& place) const;
   std::optional<double> number(const std::string& timeline) const;

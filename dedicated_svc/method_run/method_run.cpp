@@ -49,6 +49,7 @@ class Filler {
     (*this)(call.state);
     for (Template& argument : call.arguments) (*this)(argument);
   }
+  void operator()(methods::WaitCall&) {}
   bool complete() const { return complete_; }
 
  private:
@@ -131,11 +132,12 @@ Step MethodRun::fail(const Answer& answer, const Observations& observed) {
   const std::string reason = current().name + ": " + (answer.reason.empty() ? answer.error : answer.reason);
   if (go_on_)
     return {{}, ended(error_.error, error_.reason + "; its repair failed in " + reason, answer.values), {}};
-  const auto repair = method_->repairs.find(answer.error);
-  if (repair == method_->repairs.end() || repaired_[answer.error] >= repair->second.at_most ||
+  auto repair = method_->repairs.find(current().name + "." + answer.error);
+  if (repair == method_->repairs.end()) repair = method_->repairs.find(answer.error);
+  if (repair == method_->repairs.end() || repaired_[repair->first] >= repair->second.at_most ||
       !fits(repair->second, observed))
     return {{}, ended(answer.error, reason, answer.values), {}};
-  ++repaired_[answer.error];
+  ++repaired_[repair->first];
   const auto then = std::ranges::find(method_->calls, repair->second.then, &Call::name);
   go_on_ = then == method_->calls.end() ? at_.index : static_cast<std::size_t>(then - method_->calls.begin());
   at_ = {&repair->second.calls, 0};

@@ -90,7 +90,7 @@ class MethodRun {
   std::uint32_t number_ = 0;
   std::optional<std::size_t> go_on_;  // during a repair: index of the method's call that follows it
   End error_;                         // that is being repaired
-  std::map<std::string, std::uint32_t> repaired_;  // how often, by error
+  std::map<std::string, std::uint32_t> repaired_;  // how often, as the method names them
   std::map<std::string, temporal::Value> values_;  // by "call.value"
   double energy_j_ = 0;
   bool energy_known_ = true;

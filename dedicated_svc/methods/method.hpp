@@ -59,6 +59,11 @@ struct ObserveCall {
   std::vector<Template> arguments{};
 };
 
+/// Lets time pass.
+struct WaitCall {
+  temporal::Duration time{0};
+};
+
 /// A value is right within [least, most].
 struct Range {
   double least = -std::numeric_limits<double>::infinity();
@@ -69,7 +74,7 @@ struct Range {
 /// Is one low-level operation, awaited before the next one begins.
 struct Call {
   std::string name;  ///< unique in its method and that method's repairs
-  std::variant<CommandCall, PathCall, TransformCall, ObserveCall> what;
+  std::variant<CommandCall, PathCall, TransformCall, ObserveCall, WaitCall> what;
   temporal::Duration within = temporal::seconds(600);  ///< error `call-timeout` after that
   std::map<std::string, Range> check{};  ///< numbers that it must bring; else error `wrong-value`
 };
@@ -94,7 +99,8 @@ struct Method {
   std::string command;
   std::vector<std::string> arguments{};  ///< that the command must have
   std::vector<Call> calls{};
-  std::map<std::string, Repair> repairs{};       ///< by error
+  /// By error, or by "call.error" where it is for that call alone; the latter goes first.
+  std::map<std::string, Repair> repairs{};
   std::map<std::string, std::string> results{};  ///< what goes up with its success: "call.value" by name
   Shown during{};                                ///< else the command's name and arguments
   Shown then{};                                  ///< else the executive's state of rest

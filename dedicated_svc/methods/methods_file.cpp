@@ -88,8 +88,14 @@ ObserveCall read_observe(const Entry& entry, const Known& known) {
   return call;
 }
 
+temporal::Duration read_time(const Entry& entry, const std::string& name) {
+  const double seconds = entry.number();
+  if (seconds <= 0 || seconds > kLongestWait) entry.fail("'" + name + "' must be a positive time in seconds");
+  return temporal::seconds(seconds);
+}
+
 Call read_call(const Entry& entry, const Known& known) {
-  entry.allow_only({"name", "command", "path", "transform", "observe", "within_s", "check"});
+  entry.allow_only({"name", "command", "path", "transform", "observe", "wait_s", "within_s", "check"});
   Call call;
   call.name = entry.at("name").text();
   if (call.name.empty() || call.name.find_first_of(".{}") != std::string::npos)
@@ -107,12 +113,9 @@ Call read_call(const Entry& entry, const Known& known) {
                                        read_template(transform->at("robot"), known)};
   }
   if (const auto observe = entry.find("observe")) ++kinds, call.what = read_observe(*observe, known);
-  if (kinds != 1) entry.fail("a call has one of 'command', 'path', 'transform' and 'observe'");
-  if (const auto within = entry.find("within_s")) {
-    const double seconds = within->number();
-    if (seconds <= 0 || seconds > kLongestWait) within->fail("'within_s' must be a positive time in seconds");
-    call.within = temporal::seconds(seconds);
-  }
+  if (const auto wait = entry.find("wait_s")) ++kinds, call.what = WaitCall{read_time(*wait, "wait_s")};
+  if (kinds != 1) entry.fail("a call has one of 'command', 'path', 'transform', 'observe' and 'wait_s'");
+  if (const auto within = entry.find("within_s")) call.within = read_time(*within, "within_s");
   if (const auto check = entry.find("check")) call.check = read_ranges(*check);
   return call;
 }
@@ -172,6 +175,10 @@ Method read_method(const std::string& command, const Entry& entry) {
   method.calls = read_calls(entry.at("calls"), known, names);
   if (const auto repairs = entry.find("repairs"))
     repairs->each_field([&](const std::string& error, const Entry& value) {
+      const std::string call = error.substr(0, error.find('.'));
+      if (call != error &&
+          std::ranges::none_of(method.calls, [&](const Call& one) { return one.name == call; }))
+        value.fail("the method has no call '" + call + "' whose error this could repair");
       method.repairs[error] = read_repair(value, method, known, names);
     });
   if (const auto then = entry.find("then")) method.then = read_shown(*then, known);

@@ -152,6 +152,24 @@ TEST(MethodRun, AnErrorThatIsNotRepairedAnyMoreStands) {
   EXPECT_EQ(run.failed("stalled", example().rest), state("failed"));
 }
 
+// The one for a call goes before the one for any.
+TEST(MethodRun, ARepairMayBeForOneCallAlone) {
+  const Methods methods =
+      methods::read_methods(mission::Entry::parse("dedicated: {timeline: t, subsystem: s, methods: {go: "
+                                                  "{calls: [{name: a, wait_s: 1}, {name: b, wait_s: 1}], "
+                                                  "repairs: {fault: {calls: [{name: any, wait_s: 1}]}, "
+                                                  "a.fault: {calls: [{name: own, wait_s: 1}]}}}}}",
+                                                  "m")
+                                .at("dedicated"));
+  MethodRun run(methods.methods.at("go"), {});
+  run.begin();
+  EXPECT_EQ(asked(run.take(error("fault"), {})), "2 own");
+  EXPECT_EQ(asked(run.take({}, {})), "3 a");
+  EXPECT_EQ(asked(run.take({}, {})), "4 b");
+  EXPECT_EQ(asked(run.take(error("fault"), {})), "5 any");
+  EXPECT_EQ(asked(run.take({}, {})), "6 b");
+}
+
 TEST(MethodRun, WithoutWhatItNeedsNothingIsRepaired) {
   for (const Observations& poor : {Observations{}, Observations{{"scout.battery", 99.0}}}) {
     MethodRun run(example().methods.at("Traverse"), {{"wp", "w3"}});

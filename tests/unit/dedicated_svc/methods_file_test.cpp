@@ -38,7 +38,7 @@ TEST(MethodsFile, ReadsACallOfEachKind) {
 TEST(MethodsFile, RefusesWhatCannotBeMeant) {
   const std::pair<std::string, std::string> cases[] = {
       {"      calls: []\n", "mission.yaml:6:14: there must be a call"},
-      {"      calls: [{name: a}]\n", "one of 'command', 'path', 'transform' and 'observe'"},
+      {"      calls: [{name: a}]\n", "one of 'command', 'path', 'transform', 'observe' and 'wait_s'"},
       {"      calls: [{name: a, observe: {timeline: t}, path: {planner: p, from: {robot: r}, to: {robot: "
        "r}}}]\n",
        "one of 'command'"},
@@ -62,6 +62,9 @@ TEST(MethodsFile, RefusesWhatCannotBeMeant) {
       {"      calls: [" + std::string(kCall) +
            "]\n      repairs: {e: {calls: [{name: b, observe: {timeline: t}}], at_most: 0}}\n",
        "'at_most' must be from 1 to"},
+      {"      calls: [" + std::string(kCall) + "]\n      repairs: {z.e: {calls: [{name: b, wait_s: 1}]}}\n",
+       "the method has no call 'z' whose error"},
+      {"      calls: [{name: a, wait_s: 0}]\n", "'wait_s' must be a positive time"},
       {"      calls: [" + std::string(kCall) + "]\n      results: {x: \"2\"}\n", "one value of one call"},
       {"      calls: [" + std::string(kCall) + "]\n      then: []\n", "a state is written as"},
   };
