@@ -27,7 +27,7 @@ std::set<std::string> codes_in_sources() {
   std::set<std::string> out;
   const std::regex code("\"([a-z]+\\.[a-z_-]+)\"");
   for (const char* part :
-       {"exec_svc", "services", "planner_svc", "sim_svc", "pathplan_svc", "arm_svc", "science_svc"}) {
+       {"exec_svc", "services", "planner_svc", "sim_svc", "pathplan_svc", "dedicated_svc", "arm_svc", "science_svc"}) {
     for (const auto& file : fs::recursive_directory_iterator(fs::path(ROCI_SOURCE_DIR) / part)) {
       if (file.path().extension() != ".cpp" && file.path().extension() != ".hpp") continue;
       std::ostringstream in;
