@@ -21,6 +21,11 @@ std::optional<double> number(const std::string& text) {
   return value;
 }
 
+Failure bogged_down() {
+  return {"bogged-down",
+          "the soil does not bear the robot, and its wheels have dug it in; it needs help from outside"};
+}
+
 }  // namespace
 
 Drive::Drive(DriveSettings settings, world::RandomStream noise)
@@ -37,24 +42,30 @@ std::optional<std::string> Drive::place() const {
 
 world::Memory Drive::memory() const {
   const bool moved = target_ && (trace_ || detours_ > 0);
-  return {{"place", State{"idle-at", {moved ? settings_.stop_place : place_}}}};
+  world::Memory out{{"place", State{"idle-at", {moved ? settings_.stop_place : place_}}}};
+  if (bogged_) out.emplace("bogged", true);
+  return out;
 }
 
 void Drive::restore(const world::Memory& memory) {
   const auto kept = memory.find("place");
   const auto* state = kept == memory.end() ? nullptr : std::get_if<State>(&kept->second);
   if (state && state->arguments.size() == 1) place_ = state->arguments.front();
+  const auto bogged = memory.find("bogged");
+  bogged_ = bogged != memory.end() && bogged->second == temporal::Value{true};
 }
 
 Ending Drive::begin(const world::Task& task, Time, Surroundings& around) {
   const auto x = number(task.arguments.at("x"));
   const auto y = number(task.arguments.at("y"));
   if (!x || !y) return Failure{"bad-arguments", "drive: x and y must be numbers, in metres"};
+  if (bogged_) return bogged_down();
   for (const auto* other : around.components.all<world::BodyInterlock>()) {
     if (Ending forbidden = other->forbids_driving()) return forbidden;
   }
   target_ = Target{task.key, task.latest_end, task.arguments.at("to"), *x, *y};
   detours_ = last_detours_ = 0;
+  sinkage_m_ = soil_slip_ = 0;
   ask(around);
   return std::nullopt;
 }
@@ -97,6 +108,9 @@ Ending Drive::finish(Surroundings& around) {
   around.body.pose = trace.samples.back().pose;
   const std::string rock = trace.outcome == DriveEnd::blocked ? see_rock(trace, around) : "";
   if (!rock.empty() && looks_around(trace, rock, around)) return std::nullopt;
+  bogged_ = trace.outcome == DriveEnd::bogged;
+  sinkage_m_ = trace.deepest_sinkage_m;
+  soil_slip_ = trace.most_soil_slip;
   stand(trace.outcome == DriveEnd::arrived ? target_->place : settings_.stop_place);
   switch (trace.outcome) {
     case DriveEnd::arrived:
@@ -105,6 +119,8 @@ Ending Drive::finish(Surroundings& around) {
       return Failure{"stuck", "the wheels turn without progress"};
     case DriveEnd::collision:
       return Failure{"collision", "the path led into a rock of the map"};
+    case DriveEnd::bogged:
+      return bogged_down();
     case DriveEnd::blocked:
       break;
   }
@@ -133,6 +149,14 @@ std::string Drive::see_rock(const DriveTrace& trace, Surroundings& around) {
     around.out.push_back(world::RockSeen{id, around.robot, rock.x, rock.y, rock.radius, trace.end});
   }
   return id;
+}
+
+std::map<std::string, temporal::Value> Drive::results() const {
+  std::map<std::string, temporal::Value> out{{"detours", last_detours_}};
+  if (settings_.motion.wheels <= 0) return out;
+  out.emplace("sinkage", sinkage_m_);
+  out.emplace("soil_slip", soil_slip_);
+  return out;
 }
 
 void Drive::halt(Time now, Surroundings& around) {

@@ -58,6 +58,9 @@ world::MakeComponent read_drive(Settings& in) {
   p.drive_efficiency = in.number("drive_efficiency", p.drive_efficiency, kPositive);
   p.drive_electronics_w = in.number("drive_electronics_w", p.drive_electronics_w);
   p.turn_power_w = in.number("turn_power_w", p.turn_power_w);
+  p.wheels = in.number("wheels", p.wheels);
+  p.wheel_width_m = in.number("wheel_width_m", p.wheel_width_m, kPositive);
+  p.wheel_diameter_m = in.number("wheel_diameter_m", p.wheel_diameter_m, kPositive);
   out.detours = in.number("detours", out.detours);
   out.look_s = in.number("look_s", out.look_s, kPositive);
   out.planner = in.text("planner", out.planner);
