@@ -2,6 +2,8 @@
 
 #include <charconv>
 #include <cmath>
+#include <iomanip>
+#include <sstream>
 #include <utility>
 
 namespace roci::sim::components {
@@ -29,7 +31,10 @@ Failure bogged_down() {
 }  // namespace
 
 Drive::Drive(DriveSettings settings, world::RandomStream noise)
-    : settings_(std::move(settings)), place_(settings_.stop_place), noise_(std::move(noise)) {}
+    : settings_(std::move(settings)),
+      place_(settings_.stop_place),
+      noise_(std::move(noise)),
+      soil_noise_(noise_.branch("soil")) {}
 
 State Drive::state() const {
   return target_ ? State{"going-to", {target_->place}} : State{"idle-at", {place_}};
@@ -66,6 +71,7 @@ Ending Drive::begin(const world::Task& task, Time, Surroundings& around) {
   target_ = Target{task.key, task.latest_end, task.arguments.at("to"), *x, *y};
   detours_ = last_detours_ = 0;
   sinkage_m_ = soil_slip_ = 0;
+  soil_ = {};
   ask(around);
   return std::nullopt;
 }
@@ -80,8 +86,7 @@ Ending Drive::answer(const world::Answer& answer, Time now, Surroundings& around
   if (!way || way->points.empty()) return Failure{"no-path", "the path has no way-points"};
   way_ = way->points;
   around.deeds.push_back({detours_ == 0 ? "motion" : "detour", target_->place});
-  trace_ =
-      simulate_drive(around.environment.ground, settings_.motion, now, *around.body.pose, way_, 0, noise_);
+  simulate(now, *around.body.pose, 0, around.environment.ground);
   return std::nullopt;
 }
 
@@ -89,8 +94,14 @@ void Drive::ground_changed(Time now, Surroundings& around) {
   if (!trace_) return;
   const DriveSample sample = trace_->at(now);
   around.body.pose = sample.pose;
-  trace_ = simulate_drive(around.environment.ground, settings_.motion, now, sample.pose, way_,
-                          sample.next_waypoint, noise_);
+  simulate(now, sample.pose, sample.next_waypoint, around.environment.ground);
+}
+
+void Drive::simulate(Time now, const world::Pose& from, std::size_t first, const world::Ground& ground) {
+  SoilSensor sensor(settings_.soil_sensor, marked_, soil_noise_);
+  const bool senses = !settings_.soil_sensor.instruments.empty();
+  trace_ =
+      simulate_drive(ground, settings_.motion, now, from, way_, first, noise_, senses ? &sensor : nullptr);
 }
 
 std::optional<Time> Drive::next_change() const {
@@ -111,6 +122,7 @@ Ending Drive::finish(Surroundings& around) {
   bogged_ = trace.outcome == DriveEnd::bogged;
   sinkage_m_ = trace.deepest_sinkage_m;
   soil_slip_ = trace.most_soil_slip;
+  soil_ = trace.soil;
   stand(trace.outcome == DriveEnd::arrived ? target_->place : settings_.stop_place);
   switch (trace.outcome) {
     case DriveEnd::arrived:
@@ -119,6 +131,8 @@ Ending Drive::finish(Surroundings& around) {
       return Failure{"stuck", "the wheels turn without progress"};
     case DriveEnd::collision:
       return Failure{"collision", "the path led into a rock of the map"};
+    case DriveEnd::no_go:
+      return mark_soil(trace, around);
     case DriveEnd::bogged:
       return bogged_down();
     case DriveEnd::blocked:
@@ -156,7 +170,25 @@ std::map<std::string, temporal::Value> Drive::results() const {
   if (settings_.motion.wheels <= 0) return out;
   out.emplace("sinkage", sinkage_m_);
   out.emplace("soil_slip", soil_slip_);
+  if (settings_.soil_sensor.instruments.empty()) return out;
+  out.emplace("soil_samples", static_cast<double>(soil_.samples));
+  out.emplace("soil_margin", soil_.least_margin);
   return out;
+}
+
+// Marks a circle around the place that was measured, and returns what the drive ends with.
+Failure Drive::mark_soil(const DriveTrace& trace, Surroundings& around) {
+  const SoilSensorSettings& sensor = settings_.soil_sensor;
+  const NoGo& no_go = *trace.no_go;
+  marked_.push_back({no_go.at, sensor.mark_radius_m});
+  const std::string id = around.robot + "-soil-" + std::to_string(marked_.size());
+  around.out.push_back(world::SoilMarked{id, around.robot, no_go.instrument, sensor.judges_for, no_go.at.x,
+                                         no_go.at.y, sensor.mark_radius_m, trace.end});
+  std::ostringstream why;
+  why << std::fixed << std::setprecision(2) << "the " << no_go.instrument << " says No-Go for "
+      << sensor.judges_for << ": it would sink " << no_go.expected.sinkage_m << " m and need "
+      << no_go.expected.traction_share << " of the thrust that the soil gives; " << id << " marks the place";
+  return {"no-go", why.str()};
 }
 
 void Drive::halt(Time now, Surroundings& around) {

@@ -38,8 +38,9 @@ double distance_to_segment(terrain::Point p, terrain::Point a, terrain::Point b)
 class DriveIntegration {
  public:
   DriveIntegration(const Ground& ground, const DriveParameters& parameters, const Pose& from,
-                   const std::vector<terrain::Point>& way, std::size_t first, RandomStream& noise)
-      : ground_(ground), p_(parameters), way_(way), noise_(noise) {
+                   const std::vector<terrain::Point>& way, std::size_t first, RandomStream& noise,
+                   SoilSensor* sensor)
+      : ground_(ground), p_(parameters), way_(way), noise_(noise), sensor_(sensor) {
     now_.pose = from;
     now_.next_waypoint = first;
     started_in_rock_ = in_rock();
@@ -57,6 +58,8 @@ class DriveIntegration {
     }
     trace.deepest_sinkage_m = deepest_sinkage_m_;
     trace.most_soil_slip = most_soil_slip_;
+    trace.no_go = no_go_;
+    if (sensor_) trace.soil = sensor_->record();
     const auto whole = static_cast<std::int64_t>(trace.samples.size()) - 2;
     trace.end = whole < 0 ? start : start + whole * kDriveStep + seconds(last_step);
     return trace;
@@ -67,6 +70,10 @@ class DriveIntegration {
   bool in_rock() const { return ground_.site->occupancy(here()) == terrain::Occupancy::occupied; }
 
   bool finished(DriveTrace& trace) {
+    if (no_go_) {
+      trace.outcome = DriveEnd::no_go;
+      return true;
+    }
     while (now_.next_waypoint + 1 < way_.size() &&
            terrain::distance(here(), way_[now_.next_waypoint]) < kPassedWaypoint) {
       ++now_.next_waypoint;
@@ -153,6 +160,7 @@ class DriveIntegration {
         p_.weight_n * std::max(0.0, p_.rolling_resistance * std::cos(slope) + std::sin(pitch)) +
         soil.resistance_n;
     use_power(p_.drive_electronics_w + force * wheel / p_.drive_efficiency, dt);
+    if (sensor_) no_go_ = sensor_->sense(ground_, now_.pose, std::abs(speed) * dt);
     return dt;
   }
 
@@ -191,6 +199,8 @@ class DriveIntegration {
   const DriveParameters& p_;
   const std::vector<terrain::Point>& way_;
   RandomStream& noise_;
+  SoilSensor* sensor_;
+  std::optional<NoGo> no_go_;
   DriveSample now_;
   bool started_in_rock_ = false;
   double slip_noise_ = 0;
@@ -223,8 +233,8 @@ DriveSample DriveTrace::at(Time t) const {
 
 DriveTrace simulate_drive(const Ground& ground, const DriveParameters& parameters, Time start,
                           const Pose& from, const std::vector<terrain::Point>& way, std::size_t first,
-                          RandomStream& noise) {
-  return DriveIntegration(ground, parameters, from, way, first, noise).run(start);
+                          RandomStream& noise, SoilSensor* sensor) {
+  return DriveIntegration(ground, parameters, from, way, first, noise, sensor).run(start);
 }
 
 }  // namespace roci::sim::components
