@@ -20,7 +20,7 @@ const std::vector<std::string>& event_codes() {
       "reserve.spent", "robot.safe", "robot.safing", "robot.unsafe", "run.foreign", "sample.refused",
       "scenario.as_expected", "scenario.over", "scenario.time-up", "scenario.unexpected", "science.find",
       "science.no_room", "service.died", "service.doubled", "service.found", "service.lost",
-      "service.missed", "standby.gone", "standby.ready", "timeline.contested", "timeline.no_room",
+      "service.missed", "soil.no_go", "standby.gone", "standby.ready", "timeline.contested", "timeline.no_room",
       "values.outdated",
       "watch.goal", "watch.no_room",
   };
