@@ -19,9 +19,9 @@ const std::set<std::string> kOthers{"begun.json",   "comm.window",     "continge
                                     "earth.window", "effects.jsonl",   "expected.json",
                                     "identity.key", "issued.json",     "journal.sqlite",
                                     "launch.json",  "launch.lock",     "mission.yaml",
-                                    "orders.json",  "permissions.key", "revoked.pem",
-                                    "roci.inner",   "roci.team",       "summary.json",
-                                    "sun.window"};
+                                    "orders.json",  "permissions.key", "products.jsonl",
+                                    "revoked.pem",  "roci.inner",      "roci.team",
+                                    "summary.json", "sun.window"};
 
 std::set<std::string> codes_in_sources() {
   std::set<std::string> out;
