@@ -35,6 +35,7 @@ using world::Observed;
 using world::PathWanted;
 using world::Product;
 using world::RockSeen;
+using world::SoilMarked;
 using world::TaskReport;
 using world::TaskStage;
 
@@ -74,6 +75,7 @@ class SimService final : public services::Service, private owner::Driver {
       go_on_with(run_folder_ / (node.options().name + ".world"));
     }
     if (!run_folder_.empty()) effects_.open(run_folder_ / "effects.jsonl", std::ios::app);
+    if (!run_folder_.empty()) fates_.open(run_folder_ / "products.jsonl", std::ios::app);
     if (!run_folder_.empty()) begun_.open(run_folder_ / "begun.json");
     services::subscribe(node, topics::mission_status, [this](const v1::MissionStatus& status) {
       if (executives_.size() >= kExecutives && !executives_.contains(status.executive())) return;
@@ -126,6 +128,7 @@ class SimService final : public services::Service, private owner::Driver {
                        [this](const Image& image) { publish(image); },
                        [this](const Product& product) { publish(product); },
                        [this](const RockSeen& rock) { warn_of(rock); },
+                       [this](const SoilMarked& soil) { warn_of(soil); },
                        [this](const PathWanted& path) { ask(path); },
                        [this](const MotionWanted& motion) { ask(motion); }},
                  output);
@@ -155,6 +158,16 @@ class SimService final : public services::Service, private owner::Driver {
     const v1::DataProduct sample = wire::to_wire(product);
     products_.write(sample);
     if (world::is_final(product.fate)) products_.dispose(sample);
+    fates_ << nlohmann::json{{"time_us", node_.now().count()},
+                             {"robot", product.robot},
+                             {"id", product.id},
+                             {"kind", product.kind},
+                             {"source", product.source},
+                             {"bytes", product.bytes},
+                             {"tier", world::name_of(product.tier)},
+                             {"fate", world::name_of(product.fate)}}
+                  .dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)
+           << std::endl;
   }
 
   void report(const TaskReport& task) {
@@ -169,6 +182,13 @@ class SimService final : public services::Service, private owner::Driver {
     hazards_.write(wire::to_wire(rock, node_.options().name));
     announce(v1::SEVERITY_WARNING, "hazard.seen",
              "a rock that the map does not show lies on the way (" + rock.id + ")");
+  }
+
+  void warn_of(const SoilMarked& soil) {
+    hazards_.write(wire::to_wire(soil, node_.options().name));
+    announce(
+        v1::SEVERITY_WARNING, "soil.no_go",
+        soil.robot + " says No-Go for " + soil.judged_for + " (" + soil.id + ", " + soil.instrument + ")");
   }
 
   void ask(const PathWanted& path) {
@@ -319,6 +339,7 @@ class SimService final : public services::Service, private owner::Driver {
   std::optional<WorldFile> kept_;  // of a live robot
   std::optional<Time> goes_on_from_;
   std::ofstream effects_;
+  std::ofstream fates_;  // of data products
   std::ofstream begun_;
   const char* begun_separator_ = "[\n";
   scenario::EventOrder order_;
