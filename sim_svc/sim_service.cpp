@@ -35,6 +35,7 @@ using world::Observed;
 using world::PathWanted;
 using world::Product;
 using world::RockSeen;
+using world::SoilMarked;
 using world::TaskReport;
 using world::TaskStage;
 
@@ -127,6 +128,7 @@ class SimService final : public services::Service, private owner::Driver {
                        [this](const Image& image) { publish(image); },
                        [this](const Product& product) { publish(product); },
                        [this](const RockSeen& rock) { warn_of(rock); },
+                       [this](const SoilMarked& soil) { warn_of(soil); },
                        [this](const PathWanted& path) { ask(path); },
                        [this](const MotionWanted& motion) { ask(motion); }},
                  output);
@@ -179,6 +181,13 @@ class SimService final : public services::Service, private owner::Driver {
     hazards_.write(wire::to_wire(rock, node_.options().name));
     announce(v1::SEVERITY_WARNING, "hazard.seen",
              "a rock that the map does not show lies on the way (" + rock.id + ")");
+  }
+
+  void warn_of(const SoilMarked& soil) {
+    hazards_.write(wire::to_wire(soil, node_.options().name));
+    announce(
+        v1::SEVERITY_WARNING, "soil.no_go",
+        soil.robot + " says No-Go for " + soil.judged_for + " (" + soil.id + ", " + soil.instrument + ")");
   }
 
   void ask(const PathWanted& path) {

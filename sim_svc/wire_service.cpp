@@ -137,6 +137,16 @@ v1::Hazard to_wire(const world::RockSeen& rock, const std::string& finder) {
   return out;
 }
 
+v1::Hazard to_wire(const world::SoilMarked& soil, const std::string& finder) {
+  v1::Hazard out;
+  out.found_by(finder);
+  out.id(soil.id);
+  out.x_m(soil.x);
+  out.y_m(soil.y);
+  out.radius_m(soil.radius);
+  return out;
+}
+
 v1::PathRequest to_wire(const world::PathWanted& path) {
   v1::PathRequest out;
   out.origin().x_m(path.from.x);

@@ -31,6 +31,7 @@ v1::Observation to_wire(const world::Observed&);
 v1::DataProduct to_wire(const world::Image&);
 v1::DataProduct to_wire(const world::Product&);
 v1::Hazard to_wire(const world::RockSeen&, const std::string& finder);
+v1::Hazard to_wire(const world::SoilMarked&, const std::string& finder);
 v1::PathRequest to_wire(const world::PathWanted&);
 v1::ArmMotionRequest to_wire(const world::MotionWanted&);
 v1::Goal to_wire(const scenario::GoalStimulus&, bool recalled);

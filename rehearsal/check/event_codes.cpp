@@ -5,7 +5,7 @@ namespace roci::rehearsal::check {
 const std::vector<std::string>& event_codes() {
   // clang-format off
   static const std::vector<std::string> codes = {
-      "ack.foreign", "answer.no_room", "clock.drift", "clock.offset", "clock.set", "command.epoch_jump",
+      "ack.foreign", "answer.no_room", "calls.damaged", "calls.settling", "calls.unwritten", "clock.drift", "clock.offset", "clock.set", "command.epoch_jump",
       "command.foreign", "commander.doubled", "contract.mismatch", "datagram.refused", "epoch.refused",
       "epoch.taken", "executive.resumed", "fact.left_out", "fallback.failed", "goal.accepted",
       "goal.achieved", "goal.dropped", "goal.failed", "goal.merged", "goal.no_room", "goal.recalled",
@@ -20,7 +20,7 @@ const std::vector<std::string>& event_codes() {
       "reserve.spent", "robot.safe", "robot.safing", "robot.unsafe", "run.foreign", "sample.refused",
       "scenario.as_expected", "scenario.over", "scenario.time-up", "scenario.unexpected", "science.find",
       "science.no_room", "service.died", "service.doubled", "service.found", "service.lost",
-      "service.missed", "standby.gone", "standby.ready", "timeline.contested", "timeline.no_room",
+      "service.missed", "soil.no_go", "standby.gone", "standby.ready", "timeline.contested", "timeline.no_room",
       "values.outdated",
       "watch.goal", "watch.no_room",
   };

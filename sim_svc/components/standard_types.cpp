@@ -8,7 +8,7 @@
 #include "sim_svc/components/arm_settings.hpp"
 #include "sim_svc/components/camera.hpp"
 #include "sim_svc/components/direct_radio_settings.hpp"
-#include "sim_svc/components/drive.hpp"
+#include "sim_svc/components/drive_settings.hpp"
 #include "sim_svc/components/dynamic_arm.hpp"
 #include "sim_svc/components/dynamic_arm_settings.hpp"
 #include "sim_svc/components/grapple.hpp"
@@ -31,8 +31,6 @@ using setup::Settings;
 
 namespace {
 
-constexpr double kPositive = 1e-3;  // for what is divided by or would never end
-
 template <class Component, class ComponentSettings>
 world::MakeComponent making(ComponentSettings settings) {
   return [settings = std::move(settings)](world::RandomStream noise) {
@@ -40,30 +38,7 @@ world::MakeComponent making(ComponentSettings settings) {
   };
 }
 
-world::MakeComponent read_drive(Settings& in) {
-  DriveSettings out;
-  DriveParameters& p = out.motion;
-  p.radius_m = in.number("radius_m", p.radius_m);
-  p.wheel_speed_m_s = in.number("wheel_speed_m_s", p.wheel_speed_m_s, kPositive);
-  p.turn_rate_rad_s = in.number("turn_rate_rad_s", p.turn_rate_rad_s, kPositive);
-  p.slip = in.number("slip", p.slip);
-  p.uphill_slip = in.number("uphill_slip", p.uphill_slip);
-  p.slip_noise = in.number("slip_noise", p.slip_noise);
-  p.slope_slowdown = in.number("slope_slowdown", p.slope_slowdown);
-  p.heading_noise = in.number("heading_noise", p.heading_noise);
-  p.max_slope_deg = in.number("max_slope_deg", p.max_slope_deg, 1);
-  p.rock_sight_m = in.number("rock_sight_m", p.rock_sight_m);
-  p.weight_n = in.number("weight_n", p.weight_n);
-  p.rolling_resistance = in.number("rolling_resistance", p.rolling_resistance);
-  p.drive_efficiency = in.number("drive_efficiency", p.drive_efficiency, kPositive);
-  p.drive_electronics_w = in.number("drive_electronics_w", p.drive_electronics_w);
-  p.turn_power_w = in.number("turn_power_w", p.turn_power_w);
-  out.detours = in.number("detours", out.detours);
-  out.look_s = in.number("look_s", out.look_s, kPositive);
-  out.planner = in.text("planner", out.planner);
-  out.stop_place = in.text("stop_place", out.stop_place);
-  return making<Drive>(std::move(out));
-}
+world::MakeComponent read_drive(Settings& in) { return making<Drive>(read_drive_settings(in)); }
 
 world::MakeComponent read_arm(Settings& in) { return making<Arm>(read_arm_settings(in)); }
 

@@ -8,6 +8,7 @@
 
 #include "sim_svc/scenario/body_stimuli_file.hpp"
 #include "sim_svc/scenario/file_values.hpp"
+#include "sim_svc/scenario/soil_file.hpp"
 
 namespace roci::sim::scenario {
 
@@ -206,14 +207,14 @@ Stimulus read_stimulus(const Entry& entry, const Roster& roster) {
                     "battery_to_j", "module_fails", "slot_blocked", "slow_joint",
                     "eclipse",      "network",      "parameter",    "trench_collapses",
                     "hollow",       "surroundings", "heat",         "set",
-                    "rate",         "blocked_view"});
+                    "rate",         "blocked_view", "soil"});
   const std::size_t frame = entry.find("robot") ? 2 : 1;
   if (entry.fields().size() != frame + 1) {
     entry.fail(
         "a stimulus is at_s (and robot) and one of goal, recall, hazard, fault, rock, battery_loss_j, "
         "battery_to_j, "
         "module_fails, slot_blocked, slow_joint, eclipse, network, parameter, trench_collapses, hollow, "
-        "surroundings, heat, rate, blocked_view, set; split it into several");
+        "surroundings, heat, rate, blocked_view, set, soil; split it into several");
   }
   Stimulus out;
   out.at = time_of(entry.at("at_s"));
@@ -227,6 +228,10 @@ Stimulus read_stimulus(const Entry& entry, const Roster& roster) {
     out.what = Disturbance{read_fault(*fault, robot_of(entry, roster), out.at)};
   }
   if (const auto rock = entry.find("rock")) out.what = Disturbance{RockFall{read_rock(*rock)}};
+  if (const auto soil = entry.find("soil")) {
+    out.what = Disturbance{world::SoilChange{read_soil_area(*soil)}};
+    out.entry = *soil;
+  }
   if (const auto loss = entry.find("battery_loss_j")) {
     out.what = Disturbance{read_energy_loss(*loss, robot_of(entry, roster))};
   }

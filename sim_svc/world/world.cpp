@@ -35,6 +35,7 @@ void check_unique(const std::vector<Named>& all, const std::string& what) {
 World::World(WorldSetup setup, std::uint64_t seed)
     : environment_{std::move(setup.ground), std::move(setup.windows), {}, {}, {}} {
   environment_.ground.surface.seed = seed;
+  scatter(environment_.ground.surface.soil, seed);
   check_unique(setup.robots, "robots");
   for (RobotSetup& robot : setup.robots) {
     check_unique(robot.components, "components of '" + robot.name + "'");
@@ -130,6 +131,10 @@ void World::apply(Time now, const Disturbance& disturbance) {
             },
             [&](const RockFall& fall) {
               environment_.ground.hidden_rocks.push_back(fall.rock);
+              for (Robot& one : robots_) one.ground_changed(now, environment_, out_);
+            },
+            [&](const SoilChange& change) {
+              environment_.ground.surface.soil.areas.push_back(change.area);
               for (Robot& one : robots_) one.ground_changed(now, environment_, out_);
             },
             [&](const EnergyLoss& loss) {

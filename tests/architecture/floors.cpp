@@ -23,7 +23,7 @@ const std::vector<House> kHouses = {
      {"services/bounds/", "services/clock/", "services/link/", "services/log/", "services/wire/",
       "services/transport/", "services/certificate/", "services/vendors/", "services/topics.hpp",
       "services/health/", "services/node/", "services/rpc/", "services/", "services/owner/",
-      "services/security/", "services/process/", "services/launch/"}},
+      "services/commander/", "services/security/", "services/process/", "services/launch/"}},
     {"planner_svc/",
      {"planner_svc/engine/", "planner_svc/temporal_pddl/", "planner_svc/utility_htn/", "planner_svc/"}},
     // The checker shares the readers alone with what it checks.
@@ -34,6 +34,7 @@ const std::vector<House> kHouses = {
       "planner_svc/utility_htn/search/", "planner_svc/utility_htn/strategies/",
       "planner_svc/utility_htn/delivery/", "planner_svc/utility_htn/cycle/",
       "planner_svc/utility_htn/adapter/", "planner_svc/utility_htn/cli/", "planner_svc/utility_htn/"}},
+    {"dedicated_svc/", {"dedicated_svc/methods/", "dedicated_svc/method_run/", "dedicated_svc/"}},
     {"sim_svc/",
      {"sim_svc/world/", "sim_svc/setup/", "sim_svc/components/", "sim_svc/scenario/", "sim_svc/"}},
 };
