@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "services/owner/command.hpp"
+#include "services/owner/command_wire.hpp"
 #include "services/wire/plan_wire.hpp"
 
 namespace roci::exec {
@@ -86,7 +87,10 @@ Observation from_wire(const v1::Observation& in) {
 
 CommandAck from_wire(const v1::CommandAck& in) {
   const auto stage = static_cast<CommandStage>(std::min<std::uint32_t>(in.stage(), v1::STAGE_UNKNOWN));
-  return {in.activity(), in.attempt(), stage, in.code(), in.reason(), in.epoch(), in.refused_epoch()};
+  CommandAck out{in.activity(), in.attempt(), stage, in.code(), in.reason(), in.epoch(), in.refused_epoch(), {}};
+  services::owner::Results results = services::owner::word_from_wire(in).results;
+  out.results = {results.duration, results.energy_j, std::move(results.values)};
+  return out;
 }
 
 PlanReply from_wire(std::uint64_t call, const v1::PlanReply& in) {

@@ -9,6 +9,7 @@
 #include "core/temporal/flexible_plan.hpp"
 #include "core/temporal/plan_delta.hpp"
 #include "core/temporal/verdict.hpp"
+#include "exec_svc/reactor/executed_plan.hpp"
 #include "exec_svc/executive/messages.hpp"
 #include "exec_svc/goals/goal_set.hpp"
 #include "exec_svc/orders/order.hpp"
@@ -134,6 +135,7 @@ struct ReactorOutputs {
   std::optional<std::uint64_t> cancelled_call;  ///< its reply is wanted no more; it is still awaited
   std::optional<PlanRequest> call;
   std::optional<temporal::FlexiblePlan> adopted;  ///< a plan that now runs
+  std::optional<ExecutedPlan> executed;           ///< one that has ended
   std::optional<PlanReceipt> receipt;
   std::vector<DecisionRecord> decisions;            ///< those of which the state has changed
   std::vector<AnswerReceipt> answer_receipts;       ///< one for each answer that was not known

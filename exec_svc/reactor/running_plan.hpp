@@ -11,6 +11,7 @@
 
 #include "exec_svc/executive/executive.hpp"
 #include "exec_svc/reactor/conflict_monitor.hpp"
+#include "exec_svc/reactor/executed_plan.hpp"
 #include "exec_svc/reactor/mission_state.hpp"
 #include "exec_svc/reactor/resource_monitor.hpp"
 
@@ -98,6 +99,7 @@ class RunningPlan {
   }
 
  private:
+  void close_record();
   void watch(const temporal::FlexiblePlan& plan, bool launched_again = false);
   std::vector<executive::Observation> changed_conditions();
   void forward(executive::Outputs done);
@@ -108,6 +110,7 @@ class RunningPlan {
   std::uint32_t version_ = 0;
   std::uint64_t epoch_ = 0;  // of the executive, as the inputs told last
   bool invalid_ = false;
+  ExecutionRecord record_;
   std::vector<PlannedAction> planned_;              ///< of the last plan; after a restart what remained of it
   std::vector<executive::DecisionAnswer> answers_;  ///< of the step to come
   std::vector<executive::AnswerResult> answer_results_;  ///< of the last step

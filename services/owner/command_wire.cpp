@@ -10,6 +10,10 @@
 namespace roci::services::owner {
 namespace {
 
+// Of the results of one command so many are taken, with names of so many bytes; the rest counts as not measured.
+constexpr std::size_t kMostValues = 64;
+constexpr std::size_t kMostNameBytes = 1'024;
+
 Action action_of(v1::CommandAction action) {
   switch (action) {
     case v1::COMMAND_CANCEL:
@@ -94,10 +98,13 @@ Word word_from_wire(const v1::CommandAck& ack) {
   const v1::CommandResult& outcome = ack.outcome();
   if (outcome.duration_us() >= 0) word.results.duration = temporal::Duration(outcome.duration_us());
   if (std::isfinite(outcome.energy_j())) word.results.energy_j = outcome.energy_j();
-  for (const v1::NamedValue& measured : outcome.measured()) try {
+  for (const v1::NamedValue& measured : outcome.measured()) {
+    if (word.results.values.size() >= kMostValues || measured.name().size() > kMostNameBytes) continue;
+    try {
       word.results.values[measured.name()] = wire::from_wire(measured.held());
     } catch (const wire::WireError&) {  // counts as not measured
     }
+  }
   return word;
 }
 
