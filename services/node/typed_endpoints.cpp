@@ -64,6 +64,8 @@ template struct TypedEndpoints<v1::NetworkOrder>;
 template struct TypedEndpoints<v1::NetworkStatus>;
 template struct TypedEndpoints<v1::DownlinkSchedule>;
 template struct TypedEndpoints<v1::MissionOutlook>;
+template struct TypedEndpoints<v1::TerrainFinding>;
+template struct TypedEndpoints<v1::MapPatch>;
 template struct TypedEndpoints<v1::TimeProbe>;
 template struct TypedEndpoints<v1::PlanDelta>;
 template struct TypedEndpoints<v1::PlanReceipt>;

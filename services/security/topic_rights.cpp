@@ -81,6 +81,9 @@ std::vector<TopicRights> make_table() {
       row(topics::downlink_schedule,{planner},                               {world, console}),
       row(topics::mission_outlook, {planner},                                {world, console}),
 
+      row(topics::terrain_finding, {owner},                                  {path_planner, listener, console}),
+      row(topics::map_patch,       {path_planner},                           {path_planner, listener, console}),
+
       row(topics::plan_delta,      {planner},                                {executive}),
       row(topics::plan_receipt,    {executive},                              {planner}),
       row(topics::call_cancel,     {executive, planner, owner, console},     {planner, path_planner, arm_planner, functions}),

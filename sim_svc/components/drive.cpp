@@ -16,6 +16,8 @@ using world::Surroundings;
 
 namespace {
 
+constexpr double kRim = 0.05;  // m, of a marked circle in which a No-Go is no news either
+
 std::optional<double> number(const std::string& text) {
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -160,7 +162,8 @@ std::string Drive::see_rock(const DriveTrace& trace, Surroundings& around) {
   const std::string id = known.try_emplace(index, "rock-" + std::to_string(known.size() + 1)).first->second;
   if (seen_rocks_.insert(index).second) {
     const world::Rock& rock = around.environment.ground.hidden_rocks[index];
-    around.out.push_back(world::RockSeen{id, around.robot, rock.x, rock.y, rock.radius, trace.end});
+    around.out.push_back(
+        world::RockSeen{id, around.robot, rock.x, rock.y, rock.radius, trace.end, settings_.own_map});
   }
   return id;
 }
@@ -176,14 +179,17 @@ std::map<std::string, temporal::Value> Drive::results() const {
   return out;
 }
 
-// Marks a circle around the place that was measured, and returns what the drive ends with.
+// Marks a circle that begins at the place that was measured and lies ahead of the body, so that it stands outside; returns what the drive ends with.
 Failure Drive::mark_soil(const DriveTrace& trace, Surroundings& around) {
   const SoilSensorSettings& sensor = settings_.soil_sensor;
   const NoGo& no_go = *trace.no_go;
-  marked_.push_back({no_go.at, sensor.mark_radius_m});
+  const double heading = trace.samples.back().pose.heading;
+  const terrain::Point centre{no_go.at.x + sensor.mark_radius_m * std::cos(heading),
+                              no_go.at.y + sensor.mark_radius_m * std::sin(heading)};
+  marked_.push_back({centre, sensor.mark_radius_m + kRim});
   const std::string id = around.robot + "-soil-" + std::to_string(marked_.size());
-  around.out.push_back(world::SoilMarked{id, around.robot, no_go.instrument, sensor.judges_for, no_go.at.x,
-                                         no_go.at.y, sensor.mark_radius_m, trace.end});
+  around.out.push_back(world::SoilMarked{id, around.robot, no_go.instrument, sensor.judges_for, centre.x,
+                                         centre.y, sensor.mark_radius_m, trace.end, settings_.own_map});
   std::ostringstream why;
   why << std::fixed << std::setprecision(2) << "the " << no_go.instrument << " says No-Go for "
       << sensor.judges_for << ": it would sink " << no_go.expected.sinkage_m << " m and need "

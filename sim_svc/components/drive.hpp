@@ -19,6 +19,7 @@ struct DriveSettings {
   SoilSensorSettings soil_sensor;        ///< has no instruments by default
   double detours = 0;                    ///< rocks that one drive looks at and asks a way around
   double look_s = 20;                    ///< a look at such a rock takes this long
+  bool own_map = false;                  ///< what it finds goes on its robot's own map alone
   std::string planner = "pathplan_svc";  ///< the service that is asked for paths
   /// It names where the body stands at the start and after a stop on the way.
   std::string stop_place = "here";

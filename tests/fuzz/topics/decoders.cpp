@@ -49,6 +49,8 @@ const std::vector<Decoder>& decoders() {
                                         decoder(topics::network_status),
                                         decoder(topics::downlink_schedule),
                                         decoder(topics::mission_outlook),
+                                        decoder(topics::terrain_finding),
+                                        decoder(topics::map_patch),
                                         decoder(topics::plan_delta),
                                         decoder(topics::plan_receipt),
                                         decoder(topics::call_cancel),
