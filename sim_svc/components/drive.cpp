@@ -39,6 +39,7 @@ Drive::Drive(DriveSettings settings, world::RandomStream noise)
       soil_noise_(noise_.branch("soil")) {}
 
 State Drive::state() const {
+  if (target_ && target_->turns) return State{"turning", {}};
   return target_ ? State{"going-to", {target_->place}} : State{"idle-at", {place_}};
 }
 
@@ -48,7 +49,7 @@ std::optional<std::string> Drive::place() const {
 }
 
 world::Memory Drive::memory() const {
-  const bool moved = target_ && (trace_ || detours_ > 0);
+  const bool moved = target_ && !target_->turns && (trace_ || detours_ > 0);
   world::Memory out{{"place", State{"idle-at", {moved ? settings_.stop_place : place_}}}};
   if (bogged_) out.emplace("bogged", true);
   return out;
@@ -62,18 +63,24 @@ void Drive::restore(const world::Memory& memory) {
   bogged_ = bogged != memory.end() && bogged->second == temporal::Value{true};
 }
 
-Ending Drive::begin(const world::Task& task, Time, Surroundings& around) {
+Ending Drive::begin(const world::Task& task, Time now, Surroundings& around) {
   const auto x = number(task.arguments.at("x"));
   const auto y = number(task.arguments.at("y"));
-  if (!x || !y) return Failure{"bad-arguments", "drive: x and y must be numbers, in metres"};
+  if (!x || !y) return Failure{"bad-arguments", task.command + ": x and y must be numbers, in metres"};
   if (bogged_) return bogged_down();
   for (const auto* other : around.components.all<world::BodyInterlock>()) {
     if (Ending forbidden = other->forbids_driving()) return forbidden;
   }
-  target_ = Target{task.key, task.latest_end, task.arguments.at("to"), *x, *y};
   detours_ = last_detours_ = 0;
   sinkage_m_ = soil_slip_ = 0;
   soil_ = {};
+  if (task.command == "turn") {
+    target_ = Target{task.key, task.latest_end, place_, *x, *y, true};
+    trace_ = simulate_turn(settings_.motion, now, *around.body.pose, {*x, *y}, noise_);
+    around.deeds.push_back({"turn", place_});
+    return std::nullopt;
+  }
+  target_ = Target{task.key, task.latest_end, task.arguments.at("to"), *x, *y};
   ask(around);
   return std::nullopt;
 }
@@ -93,7 +100,7 @@ Ending Drive::answer(const world::Answer& answer, Time now, Surroundings& around
 }
 
 void Drive::ground_changed(Time now, Surroundings& around) {
-  if (!trace_) return;
+  if (!trace_ || target_->turns) return;
   const DriveSample sample = trace_->at(now);
   around.body.pose = sample.pose;
   simulate(now, sample.pose, sample.next_waypoint, around.environment.ground);
@@ -198,7 +205,7 @@ Failure Drive::mark_soil(const DriveTrace& trace, Surroundings& around) {
 }
 
 void Drive::halt(Time now, Surroundings& around) {
-  const bool moved = trace_.has_value() || detours_ > 0;
+  const bool moved = target_ && !target_->turns && (trace_.has_value() || detours_ > 0);
   settle(now, around.body);
   stand(moved ? settings_.stop_place : place_);
 }

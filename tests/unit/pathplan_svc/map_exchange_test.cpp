@@ -9,6 +9,7 @@
 
 #include "core/mission/entry.hpp"
 #include "pathplan_svc/pathplan_service.hpp"
+#include "services/link/link_table.hpp"
 #include "services/publisher.hpp"
 #include "services/rpc.hpp"
 #include "tests/unit/services/sim_run.hpp"
@@ -253,6 +254,24 @@ TEST_F(MapExchange, WhatItKnowsStandsInTheRunFolder) {
     text << std::ifstream(folder_ / (name + ".hazards")).rdbuf();
     EXPECT_THAT(text.str(), HasSubstr("scout-soil-1")) << name;
   }
+}
+
+// The radio between the rovers: a patch comes late, and a lost one is repeated until it arrives.
+TEST_F(MapExchange, APatchPassesTheLinkBetweenTheRobots) {
+  services::link::Link radio;
+  radio.name = "radio";
+  radio.ends = {"primary", "scout"};
+  radio.light_time = 2s;
+  radio.loss = 0.5;
+  run_.links = services::link::LinkTable({radio}, {{"primary.path", "primary"}, {"scout.path", "scout"}}, 1);
+  start();
+  find(1s, "scout", "scout-soil-1", 20, 20);
+  ask(2500ms, "primary.path");
+  ask(60s, "primary.path");
+  run(61s);
+  ASSERT_EQ(replies_["primary.path"].size(), 2U);
+  EXPECT_EQ(replies_["primary.path"][0].map_version(), 1U) << "it is under way";
+  EXPECT_EQ(replies_["primary.path"][1].map_version(), 2U);
 }
 
 TEST_F(MapExchange, OnlyThePlannerOfARobotMayTell) {
