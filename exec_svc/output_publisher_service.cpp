@@ -45,6 +45,7 @@ OutputPublisher::OutputPublisher(services::Node& node, const MissionModel& missi
       commands_(services::advertise(node, topics::command)),
       goal_statuses_(services::advertise(node, topics::goal_status)),
       plans_(services::advertise(node, topics::plan)),
+      executed_(services::advertise(node, topics::executed_plan)),
       steps_(services::advertise(node, topics::step_status)),
       missions_(services::advertise(node, topics::mission_status)),
       events_(services::advertise(node, topics::event)) {}
@@ -56,6 +57,7 @@ void OutputPublisher::send_goals(const Reactor& reactor) const {
 
 void OutputPublisher::send_plan(const Reactor& reactor) const {
   if (reactor.plan().version != 0) plans_.write(plan_sample(reactor.plan(), reactor.planned_actions()));
+  if (const auto& executed = reactor.last_executed()) executed_.write(to_wire(*executed, executive_));
   for (const StepStatus& step : reactor.steps())
     steps_.write(to_wire(step, executive_, reactor.plan_version()));
 }
@@ -76,6 +78,7 @@ void OutputPublisher::send(const ReactorOutputs& out, std::uint32_t version,
     sent(steps_.write(sample));
     if (temporal::is_over(step.state)) steps_.dispose(sample);
   }
+  if (out.executed) sent(executed_.write(to_wire(*out.executed, executive_)));
   for (const Event& event : out.events) report(event);
 }
 

@@ -81,6 +81,7 @@ class OutputPublisher {
   services::Publisher<v1::Command> commands_;
   services::Publisher<v1::GoalStatus> goal_statuses_;
   services::Publisher<v1::Plan> plans_;
+  services::Publisher<v1::ExecutedPlan> executed_;
   services::Publisher<v1::StepStatus> steps_;
   services::Publisher<v1::MissionStatus> missions_;
   services::Publisher<v1::Event> events_;

@@ -42,7 +42,8 @@ void ExecutionRecord::note(const executive::CommandAck& ack) {
   const auto found = index_.find(ack.activity);
   if (!open_ || !last || found == index_.end()) return;
   executive::CommandResults& results = plan_.activities[found->second].results;
-  if (ack.results.duration) results.duration = results.duration.value_or(temporal::Duration{0}) + *ack.results.duration;
+  if (ack.results.duration)
+    results.duration = results.duration.value_or(temporal::Duration{0}) + *ack.results.duration;
   if (ack.results.energy_j) results.energy_j = results.energy_j.value_or(0) + *ack.results.energy_j;
   for (const auto& [name, value] : ack.results.values) results.values.insert_or_assign(name, value);
 }

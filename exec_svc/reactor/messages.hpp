@@ -9,11 +9,11 @@
 #include "core/temporal/flexible_plan.hpp"
 #include "core/temporal/plan_delta.hpp"
 #include "core/temporal/verdict.hpp"
-#include "exec_svc/reactor/executed_plan.hpp"
 #include "exec_svc/executive/messages.hpp"
 #include "exec_svc/goals/goal_set.hpp"
 #include "exec_svc/orders/order.hpp"
 #include "exec_svc/problem/problem.hpp"
+#include "exec_svc/reactor/executed_plan.hpp"
 #include "exec_svc/reactor/remaining_plan.hpp"
 
 namespace roci::exec::reactor {
@@ -99,9 +99,9 @@ struct ReactorInputs {
   std::vector<std::string> arrivals;  ///< services that came (back)
   std::vector<ModelVersion> models;
   std::optional<PlanReply> reply;
-  std::vector<temporal::PlanDelta> deltas;   ///< of an engine that plans all the time
-  std::vector<GivenAnswer> answers;          ///< to decisions of the running plan
-  std::vector<orders::Order> ground_orders;  ///< of the ground
+  std::vector<temporal::PlanDelta> deltas;     ///< of an engine that plans all the time
+  std::vector<GivenAnswer> answers;            ///< to decisions of the running plan
+  std::vector<orders::Order> ground_orders;    ///< of the ground
   std::vector<goals::GoalRecord> handed_over;  ///< as another executive has them, which led apart
 };
 

@@ -94,9 +94,14 @@ std::string RunningPlan::load(temporal::FlexiblePlan plan, Time now) {
   invalid_ = false;
   watch(plan);
   if (record_.open() && state_->mission->executive.replanning != mission::Replanning::continuous)
-    state_->out.executed = record_.close(ExecutedOutcome::replaced, "");
+    close(ExecutedOutcome::replaced, "");
   record_.begin(plan);
   return "";
+}
+
+void RunningPlan::close(ExecutedOutcome outcome, std::string reason) {
+  last_executed_ = record_.close(outcome, std::move(reason));
+  state_->out.executed = last_executed_;
 }
 
 // What is broken is over when nothing of it runs any more.
@@ -104,14 +109,15 @@ void RunningPlan::close_record() {
   if (!record_.open()) return;
   const executive::Outcome outcome = executive_.outcome();
   const auto active = [](const StepStatus& step) {
-    return step.state == temporal::ActivityState::dispatched || step.state == temporal::ActivityState::running;
+    return step.state == temporal::ActivityState::dispatched ||
+           step.state == temporal::ActivityState::running;
   };
   if (outcome.kind == OutcomeKind::finished) {
-    state_->out.executed = record_.close(ExecutedOutcome::finished, "");
+    close(ExecutedOutcome::finished, "");
   } else if (outcome.kind == OutcomeKind::cancelled) {
-    state_->out.executed = record_.close(ExecutedOutcome::cancelled, outcome.reason);
+    close(ExecutedOutcome::cancelled, outcome.reason);
   } else if (outcome.kind == OutcomeKind::broken && std::ranges::none_of(executive_.steps(), active)) {
-    state_->out.executed = record_.close(ExecutedOutcome::broken, outcome.reason);
+    close(ExecutedOutcome::broken, outcome.reason);
   }
 }
 

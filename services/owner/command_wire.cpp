@@ -66,6 +66,19 @@ Request from_wire(const v1::Command& command) {
   return request;
 }
 
+v1::CommandResult to_wire(const Results& results) {
+  v1::CommandResult out;
+  out.duration_us(results.duration ? results.duration->count() : -1);
+  out.energy_j(results.energy_j.value_or(std::numeric_limits<double>::quiet_NaN()));
+  for (const auto& [name, value] : results.values) {
+    v1::NamedValue measured;
+    measured.name(name);
+    measured.held(wire::to_wire(value));
+    out.measured().push_back(std::move(measured));
+  }
+  return out;
+}
+
 v1::CommandAck to_wire(const Ack& ack, const std::string& owner) {
   v1::CommandAck out;
   out.commander(ack.key.commander);
@@ -76,15 +89,7 @@ v1::CommandAck to_wire(const Ack& ack, const std::string& owner) {
   out.owner(owner);
   out.code(ack.word.code);
   out.reason(ack.word.reason);
-  const Results& results = ack.word.results;
-  out.outcome().duration_us(results.duration ? results.duration->count() : -1);
-  out.outcome().energy_j(results.energy_j.value_or(std::numeric_limits<double>::quiet_NaN()));
-  for (const auto& [name, value] : results.values) {
-    v1::NamedValue measured;
-    measured.name(name);
-    measured.held(wire::to_wire(value));
-    out.outcome().measured().push_back(std::move(measured));
-  }
+  out.outcome(to_wire(ack.word.results));
   out.newest_epoch(ack.newest_epoch);
   out.refused_epoch(ack.refused_epoch);
   return out;
