@@ -31,6 +31,7 @@ namespace owner = services::owner;
 // The key of the command that tells owners a leader's epoch; no activity has it.
 constexpr char kEpochKey[] = "epoch";
 
+constexpr std::size_t kToldExecuted = 8;
 constexpr std::size_t kSentKeys = 256;    // more are never awaited at a time
 constexpr std::uint64_t kMostSteps = 64;  // of a climb
 
@@ -78,7 +79,7 @@ void OutputPublisher::send(const ReactorOutputs& out, std::uint32_t version,
     sent(steps_.write(sample));
     if (temporal::is_over(step.state)) steps_.dispose(sample);
   }
-  if (out.executed) sent(executed_.write(to_wire(*out.executed, executive_)));
+  if (out.executed) tell(*out.executed);
   for (const Event& event : out.events) report(event);
 }
 
@@ -104,6 +105,19 @@ void OutputPublisher::send_waiting() {
     commands_.write(std::move(waiting_.front()));
     waiting_.pop_front();
   }
+}
+
+// A late joiner gets the newest few.
+void OutputPublisher::tell(const reactor::ExecutedPlan& executed) {
+  v1::ExecutedPlan sample = to_wire(executed, executive_);
+  v1::ExecutedPlan name;
+  name.executive(executive_);
+  name.version(executed.version);
+  sent(executed_.write(std::move(sample)));
+  told_executed_.push_back(std::move(name));
+  if (told_executed_.size() <= kToldExecuted) return;
+  executed_.dispose(told_executed_.front());
+  told_executed_.pop_front();
 }
 
 void OutputPublisher::lose_owner(const std::string& owner) {
