@@ -76,6 +76,7 @@ class SimService final : public services::Service, private owner::Driver {
       go_on_with(run_folder_ / (node.options().name + ".world"));
     }
     if (!run_folder_.empty()) effects_.open(run_folder_ / "effects.jsonl", std::ios::app);
+    if (!run_folder_.empty()) fates_.open(run_folder_ / "products.jsonl", std::ios::app);
     if (!run_folder_.empty()) begun_.open(run_folder_ / "begun.json");
     services::subscribe(node, topics::mission_status, [this](const v1::MissionStatus& status) {
       if (executives_.size() >= kExecutives && !executives_.contains(status.executive())) return;
@@ -136,6 +137,7 @@ class SimService final : public services::Service, private owner::Driver {
     record_effects();
     record_begun();
     if (kept_) kept_->keep(world_.memory());
+    end_if_over();
     if (wake_) node_.cancel(*wake_);
     wake_.reset();
     const auto next = world_.next_change();
@@ -157,6 +159,16 @@ class SimService final : public services::Service, private owner::Driver {
     const v1::DataProduct sample = wire::to_wire(product);
     products_.write(sample);
     if (world::is_final(product.fate)) products_.dispose(sample);
+    fates_ << nlohmann::json{{"time_us", node_.now().count()},
+                             {"robot", product.robot},
+                             {"id", product.id},
+                             {"kind", product.kind},
+                             {"source", product.source},
+                             {"bytes", product.bytes},
+                             {"tier", world::name_of(product.tier)},
+                             {"fate", world::name_of(product.fate)}}
+                  .dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)
+           << std::endl;
   }
 
   void report(const TaskReport& task) {
@@ -262,9 +274,10 @@ class SimService final : public services::Service, private owner::Driver {
     return over;
   }
 
-  // The mission may go on when a goal arrives in the meantime.
+  // The mission may go on when a goal arrives in the meantime. What is on its way to Earth still arrives.
   void end_if_over() {
-    const bool over = mission_over() && stimuli_done_ == scenario_.stimuli.size();
+    const bool over =
+        mission_over() && stimuli_done_ == scenario_.stimuli.size() && !world_.has_data_under_way();
     if (over == farewell_.has_value()) return;
     if (over) {
       farewell_ = node_.after(kFarewell,
@@ -333,6 +346,7 @@ class SimService final : public services::Service, private owner::Driver {
   std::optional<WorldFile> kept_;  // of a live robot
   std::optional<Time> goes_on_from_;
   std::ofstream effects_;
+  std::ofstream fates_;  // of data products
   std::ofstream begun_;
   const char* begun_separator_ = "[\n";
   scenario::EventOrder order_;

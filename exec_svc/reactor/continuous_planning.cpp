@@ -19,7 +19,7 @@ using temporal::Time;
 
 void ContinuousPlanning::step(Time now, const ReactorInputs& inputs) {
   for (const temporal::PlanDelta& delta : inputs.deltas) take_delta(now, delta);
-  if (parts_.state.phase == MissionPhase::executing) monitor(now);
+  if (parts_.state.phase == MissionPhase::executing && !end_with_goals(now)) monitor(now);
   parts_.state.replan_wanted = false;  // whoever wants a plan: the engine knows
   forget_ended_plan(now);
   report_receipt();
@@ -90,6 +90,24 @@ void ContinuousPlanning::note_planned(const FlexiblePlan& plan) {
     parts_.state.set_goal(key, planned ? GoalState::planned : GoalState::pending,
                           (planned ? "in plan " : "no longer in plan ") + version, plan.version);
   }
+}
+
+/// Where no goal is open any more nothing else begins, and the plan ends with what runs by command: what has none, as a load that is
+/// always on or a wait for the ground, would keep the mission open for as long as it was planned. Returns whether that is so.
+bool ContinuousPlanning::end_with_goals(Time now) {
+  MissionState& state = parts_.state;
+  const bool over = !state.goals.all().empty() && state.goals.open().empty();
+  if (!parts_.plan.invalid()) parts_.plan.hold_starts(over);
+  if (!over) return false;
+  const executive::Executive& executive = parts_.plan.executive();
+  const auto is_commanded = [&](const StepStatus& step) {
+    return !executive.activity(step.activity)->owner.empty();
+  };
+  if (std::ranges::any_of(executive.running(), is_commanded)) return true;
+  state.report(Severity::info, "plan.finished", parts_.plan.name() + " ends: no goal is open any more");
+  parts_.plan.cancel(now);
+  state.phase = MissionPhase::idle;
+  return true;
 }
 
 void ContinuousPlanning::monitor(Time now) {

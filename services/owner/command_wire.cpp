@@ -1,5 +1,7 @@
 #include "services/owner/command_wire.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -82,6 +84,21 @@ v1::CommandAck to_wire(const Ack& ack, const std::string& owner) {
   out.newest_epoch(ack.newest_epoch);
   out.refused_epoch(ack.refused_epoch);
   return out;
+}
+
+Word word_from_wire(const v1::CommandAck& ack) {
+  Word word{static_cast<Stage>(std::min<std::uint32_t>(ack.stage(), v1::STAGE_UNKNOWN)),
+            ack.code(),
+            ack.reason(),
+            {}};
+  const v1::CommandResult& outcome = ack.outcome();
+  if (outcome.duration_us() >= 0) word.results.duration = temporal::Duration(outcome.duration_us());
+  if (std::isfinite(outcome.energy_j())) word.results.energy_j = outcome.energy_j();
+  for (const v1::NamedValue& measured : outcome.measured()) try {
+      word.results.values[measured.name()] = wire::from_wire(measured.held());
+    } catch (const wire::WireError&) {  // counts as not measured
+    }
+  return word;
 }
 
 }  // namespace roci::services::owner

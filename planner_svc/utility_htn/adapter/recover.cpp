@@ -49,9 +49,9 @@ class Recovery {
   void take_past(const Token& token) {
     const std::string_view name = token.timeline;
     const std::string_view rest = name.substr(std::min(name.size(), name.find('.') + 1));
-    if (name.starts_with("done.")) {
-      out_.past.done.insert(
-          static_cast<model::TaskIndex>(index(network_.tasks, rest, &model::Task::id, "task")));
+    if (name.starts_with("done.") || name.starts_with("withdrawn.")) {
+      auto& tasks = name.starts_with("done.") ? out_.past.done : out_.past.withdrawn;
+      tasks.insert(static_cast<model::TaskIndex>(index(network_.tasks, rest, &model::Task::id, "task")));
     } else if (name.starts_with("parameter.")) {
       const auto* number = std::get_if<double>(&token.held);
       if (number == nullptr) foreign("number in " + token.timeline);

@@ -239,6 +239,7 @@ void UtilityEngine::go_on_with(const FlexiblePlan& executed, Time now) {
     recovered.points.set(*task_of(gone.id), gone.start_point, gone.end_point);
   if (std::exchange(goes_on_, true)) {
     recovered.past.values = cycle_->past().values;
+    recovered.past.withdrawn = cycle_->past().withdrawn;
     recovered.past.done.insert(cycle_->past().done.begin(), cycle_->past().done.end());
     recovered.measured.insert(measurements_.taken().begin(), measurements_.taken().end());
   }

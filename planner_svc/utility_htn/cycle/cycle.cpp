@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "planner_svc/utility_htn/flattening/reach.hpp"
 #include "planner_svc/utility_htn/search/robust.hpp"
 
 namespace roci::planner::utility_htn::cycle {
@@ -40,7 +41,7 @@ Cycle::Cycle(const model::Network& network, const flattening::Chains& chains,
       scheduler_(scheduler),
       settings_(settings),
       timelines_(network.timelines, origin),
-      past_{{}, model::priors(network), {}},
+      past_{.values = model::priors(network)},
       plan_end_(network.cycle.plan_end),
       deviation_(network.timelines.size(), 0.0) {
   for (const auto& definition : network.timelines) past_.internal.push_back(definition.initial);
@@ -125,11 +126,19 @@ void Cycle::edit_network(TaskIndex task) {
 void Cycle::request(TaskIndex task) {
   const bool again = past_.done.erase(task) != 0;
   failures_.erase(task);
+  past_.withdrawn.erase(task);
   to_schedule_ |= requested_.insert(task).second || again;
 }
 
+// Templates are nobody's request until somebody asks.
+void Cycle::give_up(TaskIndex task) {
+  requested_.erase(task);
+  if (is_request(network_.tasks[task])) past_.withdrawn.insert(task);
+}
+
 void Cycle::withdraw(TaskIndex task) {
-  if (requested_.erase(task) == 0) return;
+  if (!requested_.contains(task)) return;
+  give_up(task);
   for (std::size_t i = blocks_.size(); i-- > 0;) {
     if (chains_.chains[blocks_[i].chain].task != task || blocks_[i].begun()) continue;
     take_out(blocks_[i]);
@@ -168,6 +177,7 @@ void Cycle::nothing_runs(Time now) {
 
 void Cycle::resume(const Past& past, std::vector<Block> blocks, std::uint32_t last_block, Time now) {
   past_ = past;
+  for (const TaskIndex task : past.withdrawn) requested_.erase(task);
   last_block_ = last_block;
   timelines_ = temporal::timelines::Timelines(network_.timelines, now);
   for (Index i = 0; i < network_.timelines.size(); ++i)
@@ -183,6 +193,31 @@ std::vector<TaskIndex> Cycle::waiting() const {
   std::vector<TaskIndex> out;
   for (const TaskIndex task : requested_)
     if (!placed.contains(task) && !past_.done.contains(task)) out.push_back(task);
+  return out;
+}
+
+std::vector<TaskIndex> Cycle::closed(Time now) const {
+  const std::vector<TaskIndex> open = waiting();
+  return closed_but({open.begin(), open.end()}, now);
+}
+
+// What is placed is open, too.
+std::vector<TaskIndex> Cycle::closed_but(std::set<TaskIndex> open, Time now) const {
+  const std::vector<double> newest = values_now(now);
+  flattening::Prospects prospects{newest, open};
+  std::set<TaskIndex> placed;
+  for (const Block& one : blocks_) {
+    placed.insert(chains_.chains[one.chain].task);
+    for (const Link& each : one.links)
+      if (is_placed(each)) prospects.under_way.push_back(each.task);
+  }
+  for (const TaskIndex task : flattening::out_of_reach(network_, chains_, past_.values, prospects))
+    open.erase(task);
+  std::vector<TaskIndex> out;
+  for (const flattening::Chain& chain : chains_.chains)
+    if (!open.contains(chain.task) && !placed.contains(chain.task) &&
+        (out.empty() || out.back() != chain.task))
+      out.push_back(chain.task);
   return out;
 }
 
@@ -252,6 +287,7 @@ bool Cycle::follow(Time now) {
         // What is due just now may have ended; what is overdue has not.
         const Time due = before.start + length(one, i);
         if (due < now) one.links[i].end = expected(due, now);
+        if (due > now) one.links[i].end = due;  // it was expected to end with the budget, and lasts
       }
       if (one.links[i] == before) continue;
       changed |= one.links[i].end != before.end;
@@ -326,7 +362,7 @@ void Cycle::forget_over(Report& report) {
     if (!one.failed()) {
       past_.done.insert(task);
     } else if (++failures_[task] >= settings_.most_failures) {
-      requested_.erase(task);
+      give_up(task);
       report.notes.push_back(network_.tasks[task].id + " is withdrawn: it failed " +
                              std::to_string(settings_.most_failures) + " times");
     }
@@ -452,7 +488,10 @@ bool Cycle::end_with_budget(Time now, Report& report) {
     const double power = model::draw(network_, task, past_.values);
     if (!task.commands.empty() || power <= 0 || load.end <= now) continue;
     const double left = timelines_.value(network_.budget, now) - definition.lowest;
-    if (left > power * temporal::to_seconds(load.end - now)) continue;
+    if (left > power * temporal::to_seconds(load.end - now)) {
+      if (plan_end_ <= now) plan_end_ = network_.cycle.plan_end;
+      continue;
+    }
     load.end = plan_end_ = now + temporal::seconds(left / power / 2);
     timelines_.move(task_id(one.number, 0), load.start, load.end);
     report.notes.push_back("the budget does not last to the end of the mission: it is planned to " +
@@ -476,16 +515,12 @@ Cycle::Found Cycle::plan_for(Time now, const std::set<TaskIndex>& candidates, Re
   problem.budget = budget();
   problem.timelines_now = newest;
   problem.first_id = TaskId{1} << 63U;
-  std::set<TaskIndex> placed;
   for (const Block* one : by_start()) {
     search::Placed standing{one->chain, {}};
     for (const Link& each : one->links) standing.starts.push_back(each.start);
     problem.committed.push_back(std::move(standing));
-    placed.insert(chains_.chains[one->chain].task);
   }
-  for (const flattening::Chain& chain : chains_.chains)
-    if (!candidates.contains(chain.task) && !placed.contains(chain.task))
-      problem.closed.push_back(chain.task);
+  problem.closed = closed_but(candidates, now);
   if (delivery_ != nullptr) delivery_->join(problem, now);
   const auto beats = [](const auto& worth, double cost, const auto& known_worth, double known_cost) {
     return worth > known_worth || (worth == known_worth && cost < known_cost - 1e-6);
@@ -532,20 +567,22 @@ void Cycle::adopt(const search::Plan& plan) {
 }
 
 temporal::RankVector Cycle::predicted(std::uint32_t chain, std::span<const double> newest,
-                                      std::span<const std::uint32_t> before) const {
+                                      std::span<const std::uint32_t> before,
+                                      std::span<const TaskIndex> closed) const {
   const auto existing =
       delivery_ != nullptr ? delivery_->products() : std::span<const assessor::ExistingProduct>{};
-  return assessor_.predicted(chain, {network_, past_.values, chains_, newest, existing, before, {}});
+  return assessor_.predicted(chain, {network_, past_.values, chains_, newest, existing, before, closed});
 }
 
 // Returns what has not begun as a plan, assessed as a search assesses its own.
 search::Plan Cycle::planned(Time now) const {
   const std::vector<double> newest = values_now(now);
+  const std::vector<TaskIndex> closed = this->closed(now);
   std::vector<std::uint32_t> before;
   search::Plan out;
   for (const Block* one : by_start()) {
     if (!one->begun()) {
-      out.utility += predicted(one->chain, newest, before);
+      out.utility += predicted(one->chain, newest, before, closed);
       out.cost += flattening::cost(network_, chains_.chains[one->chain], past_.values);
       search::Placed standing{one->chain, {}};
       for (const Link& each : one->links) standing.starts.push_back(each.start);

@@ -46,9 +46,11 @@ struct Report {
 
 /// Is what outlives the process: with it and the blocks that are executed a cycle goes on as before.
 struct Past {
-  std::set<model::TaskIndex> done;  ///< requests that need not come again
-  model::Values values;             ///< as learned
-  std::vector<double> internal;     ///< by timeline: values of those that nobody reports
+  std::set<model::TaskIndex> done{};  ///< requests that need not come again
+  std::set<model::TaskIndex>
+      withdrawn{};  ///< requests of the network that nobody asks for any more, as what failed too often
+  model::Values values{};          ///< as learned
+  std::vector<double> internal{};  ///< by timeline: values of those that nobody reports
   friend bool operator==(const Past&, const Past&) = default;
 };
 
@@ -90,6 +92,9 @@ class Cycle {
   search::PlannedData data() const;
   /// Returns the requests that wait for a place, in the order of the network.
   std::vector<model::TaskIndex> waiting() const;
+  /// Returns the requests, in the order of the network, that are done, failed for good, withdrawn, or out of reach (flattening/reach.hpp):
+  /// no plan holds them until something changes.
+  std::vector<model::TaskIndex> closed(temporal::Time now) const;
 
  private:
   Block* block(std::uint32_t number);
@@ -133,7 +138,10 @@ class Cycle {
   std::vector<const Block*> by_start() const;
   search::Plan planned(temporal::Time now) const;
   temporal::RankVector predicted(std::uint32_t chain, std::span<const double> newest,
-                                 std::span<const std::uint32_t> before) const;
+                                 std::span<const std::uint32_t> before,
+                                 std::span<const model::TaskIndex> closed) const;
+  std::vector<model::TaskIndex> closed_but(std::set<model::TaskIndex> open, temporal::Time now) const;
+  void give_up(model::TaskIndex task);
   temporal::timelines::Footprint footprint(const Block& block, std::size_t link) const;
   temporal::Duration duration(model::TaskIndex task) const;
   temporal::Duration length(const Block& block, std::size_t link) const;
@@ -155,7 +163,8 @@ class Cycle {
   std::map<model::TaskIndex, std::uint32_t> failures_;
   std::vector<Block> blocks_;  // by number
   TaskId takes_rests_ = 0;     // the downlink that is next; also of data whose own has gone without them
-  temporal::Time plan_end_ = temporal::no_bound;  // of the network, or before it where the budget does not last
+  temporal::Time plan_end_ =
+      temporal::no_bound;  // of the network, or before it where the budget does not last
   std::uint32_t last_block_ = 0;
   std::vector<std::string> notes_;  // since the cycle before
   bool to_schedule_ = true;         // something waits that was not tried in this situation

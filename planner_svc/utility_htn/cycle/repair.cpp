@@ -62,20 +62,16 @@ Block* Cycle::culprit(const temporal::timelines::Conflict& conflict) {
 // Takes out what has not begun and is predicted to break a rule of the mission (R114), as things stand now.
 bool Cycle::keep_rules(Time now, Report& report) {
   const std::vector<double> newest = values_now(now);
-  bool changed = false;
-  for (bool again = true; again;) {
-    again = false;
-    std::vector<std::uint32_t> before;
-    for (const Block* one : by_start()) {
-      if (!one->begun() && predicted(one->chain, newest, before) < temporal::RankVector{}) {
-        drop(*one, "it breaks a rule of the mission", report);
-        changed = again = true;
-        break;
-      }
-      before.push_back(one->chain);
-    }
+  const std::vector<model::TaskIndex> closed = this->closed(now);
+  std::vector<std::uint32_t> order, before;
+  for (const Block* one : by_start()) order.push_back(one->number);
+  for (const std::uint32_t number : order) {
+    const Block& one = *block(number);
+    const bool breaks = !one.begun() && predicted(one.chain, newest, before, closed) < temporal::RankVector{};
+    if (!breaks) before.push_back(one.chain);
+    if (breaks) drop(one, "it breaks a rule of the mission", report);
   }
-  return changed;
+  return before.size() < order.size();
 }
 
 // Conflicts behind the commit window are mended by moving what has begun to later, and taking out what has not; the
@@ -98,6 +94,7 @@ bool Cycle::repair(Time now, Report& report) {
       abandon(*block(number), kNoTimeLeft, report);
     }
   }
+  if (changed) keep_rules(now, report);  // the map may have led through what was taken out
   if (changed && to_schedule_) schedule(now, report);
   return changed;
 }

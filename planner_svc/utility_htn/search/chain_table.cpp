@@ -28,6 +28,7 @@ ChainTable::ChainTable(const Problem& problem) : problem_(problem) {
   const assessor::Context context{problem.network,       problem.values,   problem.chains,
                                   problem.timelines_now, problem.products, {},
                                   problem.closed};
+  forecast_ = problem.assessor.forecast(context);
   for (std::uint32_t index = 0; index < count; ++index) {
     double cost = 0;
     for (const Subtask& link : chain(index).links) cost += of_tasks[link.task];
@@ -81,6 +82,10 @@ RankVector ChainTable::predicted(std::uint32_t index, std::span<const std::uint3
   const assessor::Context context{problem_.network,  problem_.values, problem_.chains, problem_.timelines_now,
                                   problem_.products, planned,         problem_.closed};
   return rounded(problem_.assessor.predicted(index, context));
+}
+
+RankVector ChainTable::forecast(std::uint32_t index) const {
+  return contextual_[index] ? rounded(forecast_->predicted(index)) : utilities_[index];
 }
 
 void ChainTable::add_data(const Placed& placed, PlannedData& out) const {

@@ -185,6 +185,22 @@ TEST(DamagedPlans, AClosedTargetIsPassed) {
   EXPECT_THAT(mission.faults(), IsEmpty());
 }
 
+// Its first step digs what nobody can dig again.
+TEST(DamagedPlans, ASiteThatNothingLeadsToIsPassed) {
+  SmallMission mission;
+  mission.network.subway.sites[1].value = {.constant = 0.95};
+  EXPECT_THAT(mission.faults(), Not(IsEmpty()));
+  mission.network.timelines.push_back({"lid", temporal::timelines::Kind::state, {"shut", "open"}});
+  const auto lid = static_cast<temporal::timelines::Index>(mission.network.timelines.size() - 1);
+  for (const model::Target& target : mission.network.subway.sites[1].targets)
+    for (model::Decomposition& way : mission.network.tasks[target.task].decompositions)
+      way.when.push_back({.timeline = lid, .states = 2});
+  EXPECT_THAT(mission.faults(), Not(IsEmpty())) << "somebody may open it";
+  mission.network.tasks[task::excavate].impacts.push_back(
+      {lid, temporal::ImpactKind::assign, temporal::ImpactWhen::at_start, {0}});
+  EXPECT_THAT(mission.faults(), IsEmpty()) << "tasks only shut it";
+}
+
 TEST(DamagedPlans, WhatWasExecutedKeepsItsRealTimes) {
   SmallMission mission;
   mission.step(2).duration = seconds(15);  // it takes longer than the network says
