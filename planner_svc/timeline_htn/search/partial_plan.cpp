@@ -19,6 +19,15 @@ GroundState ground_of(const Pattern& pattern, const std::vector<Index>& objects)
 
 }  // namespace
 
+std::vector<Index> admissible(const Ground& ground, const Behaviour& behaviour, Index variable,
+                              std::vector<Index> objects) {
+  std::vector<Index> out;
+  objects[variable] = kNone;
+  for (const auto& bound : ground.bindings(behaviour.variables, std::move(objects), behaviour.where))
+    out.push_back(bound[variable]);
+  return out;
+}
+
 Index Bindings::number(const std::vector<Index>& objects) {
   const auto [entry, added] = numbers_.emplace(objects, static_cast<Index>(all_.size()));
   if (added) {
@@ -40,8 +49,7 @@ PartialPlan::PartialPlan(Ground& ground, Bindings& bindings, const std::vector<I
   add_mending();
   const auto mended = static_cast<Index>(activities_.size());
   std::vector<Index> activity_of(problem.goals.size(), kNone);
-  for (const Index index : goal_order)
-    activity_of[index] = mended + static_cast<Index>(&index - goal_order.data());
+  for (Index i = 0; i < goal_order.size(); ++i) activity_of[goal_order[i]] = mended + i;
   for (const Index index : goal_order) {
     const model::Goal& goal = problem.goals[index];
     const Index activity = add_activity(ground.find(ground_of(goal.state, {})), kNone);
@@ -168,7 +176,7 @@ bool PartialPlan::constrain(TimePoint from, TimePoint to, Duration lower, Durati
   return false;
 }
 
-Index PartialPlan::add_activity(StateId state, Index parent) {
+Index PartialPlan::add_activity(StateId state, Index parent, const model::Bounds* bounds) {
   Activity activity;
   activity.state = state;
   activity.parent = parent;
@@ -176,6 +184,7 @@ Index PartialPlan::add_activity(StateId state, Index parent) {
   activity.end = network_.add_point();
   if (state != kNone && ground_->at(state).kind == StateKind::simple)
     activity.bounds = ground_->at(state).bounds;
+  if (bounds != nullptr) activity.bounds = *bounds;
   activities_.push_back(activity);
   const bool lasts =
       constrain(activity.start, activity.end, activity.bounds.shortest, activity.bounds.longest);
@@ -268,14 +277,14 @@ Index PartialPlan::append(StateId state, Index activity) {
 }
 
 // Appends a state that stands between two others.
-bool PartialPlan::step_between(Index component, StateId state, Index parent, bool complex_permitted) {
-  static_cast<void>(component);
+bool PartialPlan::step_between(StateId state, Index parent, Index goal, bool complex_permitted) {
   const StateKind kind = ground_->at(state).kind;
   if (kind == StateKind::resting) return append(state, kNone) != kNone;
   if (kind == StateKind::complex && !complex_permitted) return false;
   const Index activity = add_activity(state, parent);
   if (activity == kNone) return false;
   activities_[activity].placed = true;
+  activities_[activity].goal = goal;
   const Index token = append(state, activity);
   if (token == kNone) return false;
   activities_[activity].token = token;
@@ -307,7 +316,7 @@ bool PartialPlan::go_on(Index activity, StateId state) {
   const Index from = wanted.path_from == kNone ? static_cast<Index>(tokens_.size()) : wanted.path_from;
   if (state != wanted.state) {
     if (wanted.path_from == kNone) set(Field::path, activity, from);
-    return step_between(component(activity), state, wanted.parent, true);
+    return step_between(state, wanted.parent, wanted.goal, true);
   }
   if (ground_->at(state).kind == StateKind::resting) return append(state, kNone) != kNone && attach(activity);
   const Index token = append(state, activity);
@@ -327,7 +336,7 @@ bool PartialPlan::go_on(Index activity, StateId state) {
 
 // Lets the timeline go on by itself, through states without a command, until the condition holds.
 bool PartialPlan::follow(Index component, const Pattern& pattern, const std::vector<Index>& objects,
-                         Index parent) {
+                         Index activity) {
   constexpr std::size_t kMostSteps = 3;
   std::vector<StateId> path;
   StateId state = current_state(component);
@@ -346,7 +355,9 @@ bool PartialPlan::follow(Index component, const Pattern& pattern, const std::vec
     if (chosen == kNone) return false;
     path.push_back(state = chosen);
   }
-  return std::ranges::all_of(path, [&](StateId one) { return step_between(component, one, parent, false); });
+  return std::ranges::all_of(path, [&](StateId one) {
+    return step_between(one, activities_[activity].parent, activities_[activity].goal, false);
+  });
 }
 
 bool PartialPlan::conditions_hold(Index activity, const Behaviour& behaviour,
@@ -359,7 +370,7 @@ bool PartialPlan::conditions_hold(Index activity, const Behaviour& behaviour,
     const Index looked_at = before_itself ? tokens_[own].before : current_[component];
     bool holds = ground_->fits(tokens_[looked_at].state, condition.state, objects) != condition.negated;
     if (!holds && !condition.negated && !before_itself)
-      holds = follow(component, condition.state, objects, activities_[activity].parent);
+      holds = follow(component, condition.state, objects, activity);
     if (!holds)
       return refuse({Obstacle::Kind::condition, goal_of(activity), activities_[activity].state,
                      static_cast<Index>(&behaviour - ground_->model().behaviours.data()), i,
@@ -388,6 +399,20 @@ bool PartialPlan::decompose(Index activity, Index behaviour_index, Index binding
   return true;
 }
 
+// Bounds within which the state lasts whichever object the open variable stands for.
+void PartialPlan::widen(model::Bounds& bounds, const Behaviour& behaviour, Index variable,
+                        const Pattern& pattern, const std::vector<Index>& objects) {
+  if (std::ranges::find(pattern.terms, Term{variable, false}) == pattern.terms.end()) return;
+  for (const Index object : admissible(*ground_, behaviour, variable, objects)) {
+    std::vector<Index> bound = objects;
+    bound[variable] = object;
+    const StateId state = ground_->find(ground_of(pattern, bound));
+    if (state == kNone) continue;
+    bounds.shortest = std::min(bounds.shortest, ground_->at(state).bounds.shortest);
+    bounds.longest = std::max(bounds.longest, ground_->at(state).bounds.longest);
+  }
+}
+
 bool PartialPlan::add_parts(Index activity, const Behaviour& behaviour, const std::vector<Index>& objects) {
   std::vector<bool> beside(behaviour.subgoals.size(), false);
   for (const model::Decision& decision : behaviour.decisions)
@@ -412,7 +437,11 @@ bool PartialPlan::add_parts(Index activity, const Behaviour& behaviour, const st
     if (nested && !complex)
       return refuse(
           {Obstacle::Kind::no_state, goal_of(activity), activities_[activity].state, own, i, kNone});
-    const Index part = add_activity(state, activity);
+    model::Bounds bounds = ground_->at(state).bounds;
+    for (const model::Decision& decision : behaviour.decisions)
+      if (decision.variable) widen(bounds, behaviour, *decision.variable, pattern, objects);
+    const Index part =
+        add_activity(state, activity, ground_->at(state).kind == StateKind::simple ? &bounds : nullptr);
     if (part == kNone) return false;
     activities_[part].subgoal = i;
     activities_[part].nested = nested;
@@ -482,9 +511,10 @@ bool PartialPlan::path_to_need(StateId state) {
   pop();
   const Index owner = tokens_[item.subject].activity;
   const Index parent = owner == kNone ? kNone : activities_[owner].parent;
+  const Index goal = owner == kNone ? kNone : activities_[owner].goal;
   const Index component = ground_->at(state).state.component;
   if (state != item.goal) push(item);
-  if (!step_between(component, state, parent, false)) return false;
+  if (!step_between(state, parent, goal, false)) return false;
   return state != item.goal || meet_need(item.subject, item.need, current_[component]);
 }
 
@@ -517,7 +547,7 @@ bool PartialPlan::take(const Step& step) {
       if (path_to_need(step.first)) return true;
       break;
     case StepKind::rest:
-      return step_between(step.subject, step.first, kNone, false);
+      return step_between(step.first, kNone, kNone, false);
   }
   const bool activity = step.kind == StepKind::attach || step.kind == StepKind::append;
   return refuse({Obstacle::Kind::time, activity ? goal_of(step.subject) : kNone,

@@ -104,6 +104,10 @@ class Bindings {
   std::size_t bytes_ = 0;
 };
 
+/// Returns the objects that a variable of a behaviour may stand for where the others stand for these.
+std::vector<Index> admissible(const Ground& ground, const model::Behaviour& behaviour, Index variable,
+                              std::vector<Index> objects);
+
 /// Is changed by steps and taken back step by step: what a step costs is what it changes.
 class PartialPlan {
  public:
@@ -177,20 +181,22 @@ class PartialPlan {
   void set(Field field, Index index, Index value);
   Index& slot(Field field, Index index);
   bool constrain(TimePoint from, TimePoint to, Duration lower, Duration upper = temporal::no_bound);
-  Index add_activity(StateId state, Index parent);
+  Index add_activity(StateId state, Index parent, const model::Bounds* bounds = nullptr);
+  void widen(model::Bounds& bounds, const model::Behaviour& behaviour, Index variable,
+             const model::Pattern& pattern, const std::vector<Index>& objects);
   Index append(StateId state, Index activity);
   void push(Urgent item);
   void pop();
   void finish(Index activity);
   void open_up(Index activity);
   void place(Index activity);
-  bool step_between(Index component, StateId state, Index parent, bool complex_permitted);
+  bool step_between(StateId state, Index parent, Index goal, bool complex_permitted);
   bool attach(Index activity);
   bool go_on(Index activity, StateId state);
   bool decompose(Index activity, Index behaviour, Index binding);
   bool conditions_hold(Index activity, const model::Behaviour& behaviour, const std::vector<Index>& objects);
   bool follow(Index component, const model::Pattern& pattern, const std::vector<Index>& objects,
-              Index parent);
+              Index activity);
   bool add_parts(Index activity, const model::Behaviour& behaviour, const std::vector<Index>& objects);
   bool add_part_constraints(Index activity, const model::Behaviour& behaviour,
                             const std::vector<Index>& objects, Index first);

@@ -10,6 +10,9 @@ namespace {
 
 constexpr std::uint64_t kPollEach = 64;
 
+constexpr int kPassWithDetours = 1;
+constexpr int kPassThatDropsNothing = 2;
+
 std::uint64_t mix(std::uint64_t x) {
   x ^= x >> 30U;
   x *= 0xbf58476d1ce4e5b9ULL;
@@ -116,6 +119,20 @@ std::uint64_t Search::signature() const {
   return out;
 }
 
+// Starts again with what the pass before has left out; false: it has left out nothing.
+bool Search::next_pass() {
+  if (pass_ < kPassWithDetours && successors_.left_out()) {
+    pass_ = kPassWithDetours;
+  } else if (pass_ < kPassThatDropsNothing && count_.repeated > 0 && plan_->refusals_by_time() > 0) {
+    pass_ = kPassThatDropsNothing;
+  } else {
+    return false;
+  }
+  successors_.permit_detours();
+  start();
+  return state_ == Outcome::searching;
+}
+
 void Search::note(const Obstacle& obstacle) {
   if (obstacle.kind == Obstacle::Kind::none) return;
   const std::size_t depth = path_.size();
@@ -148,10 +165,7 @@ Outcome Search::run(std::uint64_t evaluations, std::size_t memory_bytes,
     }
     while (!open_.empty() && open_.begin()->second.empty()) open_.erase(open_.begin());
     if (open_.empty()) {
-      if (!drops_repeated_ || count_.repeated == 0 || plan_->refusals_by_time() == 0)
-        return state_ = Outcome::exhausted;
-      drops_repeated_ = false;
-      start();
+      if (!next_pass()) return state_ = Outcome::exhausted;
       continue;
     }
     const Index node = open_.begin()->second.back();
@@ -162,7 +176,7 @@ Outcome Search::run(std::uint64_t evaluations, std::size_t memory_bytes,
       note(plan_->obstacle());
       continue;
     }
-    if (drops_repeated_ && !seen_.insert(signature()).second) {
+    if (pass_ < kPassThatDropsNothing && !seen_.insert(signature()).second) {
       ++count_.repeated;
       continue;
     }

@@ -55,9 +55,10 @@ std::vector<Index> goal_order(const model::Problem& problem);
 /// Is a greedy best-first search with deferred evaluation; blind it is depth-first. It is resumable, and the same model, resolver and
 /// budgets give the same steps.
 ///
-/// A plan whose timelines and open activities are those of one that was seen is dropped, whatever its times. Where time has refused a
-/// step anywhere that is no proof, so once all is seen the search starts again and drops nothing. So it is complete, as far as the
-/// ancestors of a complex state do not hold that state again.
+/// It searches in up to three passes, each of which finds more and takes longer. The first goes straight from state to state of a timeline, and
+/// drops a plan whose timelines and open activities are those of one that was seen, whatever its times. The second takes detours. Where
+/// time has refused a step, what was dropped may be missed, so the third drops nothing. So it is complete, as far as the ancestors of a
+/// complex state do not hold that state again.
 class Search {
  public:
   Search(const model::Model& model, const Resolver& resolver);
@@ -82,6 +83,7 @@ class Search {
     Step step;
   };
   void start();
+  bool next_pass();
   bool go_to(Index node);
   void expand(Index node);
   std::uint64_t signature() const;
@@ -102,7 +104,7 @@ class Search {
   std::vector<Step> steps_;
   Obstacle obstacle_;
   std::size_t farthest_ = 0;
-  bool drops_repeated_ = true;
+  int pass_ = 0;
   Outcome state_ = Outcome::searching;
   Count count_;
 };

@@ -116,7 +116,13 @@ std::vector<StateId> Successors::towards(const PartialPlan& plan, Index componen
   if (order_ == Order::last_declared) std::ranges::reverse(found);
   std::ranges::stable_sort(found, {}, &std::pair<Index, StateId>::first);
   std::vector<StateId> out;
-  for (const auto& [left, state] : found) out.push_back(state);
+  for (const auto& [left, state] : found) {
+    if (detours_ || left == found.front().first) {
+      out.push_back(state);
+    } else {
+      left_out_ = true;
+    }
+  }
   return out;
 }
 

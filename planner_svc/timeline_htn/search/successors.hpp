@@ -26,6 +26,10 @@ class Successors {
   void of(const PartialPlan& plan, std::vector<Step>& out);
   /// Returns whether nothing is left to do but to let the timelines end.
   static bool whole(const PartialPlan& plan, const Ground& ground);
+  /// From now on a timeline may also take a longer way to a state than the shortest.
+  void permit_detours() { detours_ = true; }
+  /// Returns whether there were longer ways that were not given.
+  bool left_out() const { return left_out_; }
   /// Tells why there was no step.
   const Obstacle& obstacle() const { return obstacle_; }
   /// Returns the behaviours for a complex state, the first to be tried first.
@@ -48,6 +52,8 @@ class Successors {
   Bindings* bindings_;
   Order order_;
   std::map<std::pair<Index, Index>, std::vector<Index>> behaviours_;
+  bool detours_ = false;
+  bool left_out_ = false;
   Obstacle obstacle_;
 };
 
