@@ -224,6 +224,7 @@ std::vector<TaskIndex> Cycle::closed_but(std::set<TaskIndex> open, Time now) con
 Report Cycle::run(Time now) {
   Report report;
   report.notes = std::exchange(notes_, {});
+  const auto planned_before = not_begun();
   const auto does = [&](Activity what, bool changes) {
     if (!changes) return;
     report.done.push_back(what);
@@ -242,6 +243,7 @@ Report Cycle::run(Time now) {
   const bool reordered = surprised && keep_order(now, report);
   does(Activity::repair, (settings_.repairs && surprised && repair(now, report)) || reordered);
   if (settings_.optimizes) does(Activity::optimize, optimize(now, report));
+  if (report.changed) tell_losses(planned_before, now, report);
   return report;
 }
 
@@ -506,9 +508,8 @@ bool Cycle::end_with_budget(Time now, Report& report) {
   return false;
 }
 
-Cycle::Found Cycle::plan_for(Time now, const std::set<TaskIndex>& candidates, Report& report,
-                             const search::Plan* known) {
-  const std::vector<double> newest = values_now(now);
+search::Problem Cycle::problem_for(Time now, const std::set<TaskIndex>& candidates,
+                                   std::span<const double> newest) {
   search::Problem problem{network_, past_.values, chains_, assessor_, scheduler_, timelines_};
   problem.from = now + network_.cycle.commit_window;
   problem.until = plan_end_;
@@ -522,6 +523,13 @@ Cycle::Found Cycle::plan_for(Time now, const std::set<TaskIndex>& candidates, Re
   }
   problem.closed = closed_but(candidates, now);
   if (delivery_ != nullptr) delivery_->join(problem, now);
+  return problem;
+}
+
+Cycle::Found Cycle::plan_for(Time now, const std::set<TaskIndex>& candidates, Report& report,
+                             const search::Plan* known) {
+  const std::vector<double> newest = values_now(now);
+  search::Problem problem = problem_for(now, candidates, newest);
   const auto beats = [](const auto& worth, double cost, const auto& known_worth, double known_cost) {
     return worth > known_worth || (worth == known_worth && cost < known_cost - 1e-6);
   };
