@@ -202,6 +202,21 @@ TEST(DamagedPlans, ASiteThatNothingLeadsToIsPassed) {
   EXPECT_THAT(mission.faults(), IsEmpty()) << "tasks only shut it";
 }
 
+TEST(DamagedPlans, ATaskOfNoDurationAsksBeforeAndActsThen) {
+  SmallMission mission;
+  model::Task& uplink = mission.network.tasks[task::uplink];
+  using temporal::timelines::Phase;
+  uplink.duration = {};
+  uplink.impacts = {{timeline::phase, temporal::ImpactKind::assign, temporal::ImpactWhen::at_end, {0}}};
+  uplink.constraints = {{.timeline = timeline::phase, .phase = Phase::pre, .states = 2},
+                        {.timeline = timeline::phase, .phase = Phase::post, .states = 1}};
+  EXPECT_THAT(mission.faults(), IsEmpty());
+  uplink.constraints[0].states = 1;
+  EXPECT_THAT(mission.faults(), Contains(HasSubstr("its precondition on 'phase' is broken")));
+  uplink.constraints = {{.timeline = timeline::phase, .phase = Phase::post, .states = 2}};
+  EXPECT_THAT(mission.faults(), Contains(HasSubstr("its postcondition on 'phase' is broken")));
+}
+
 // Two downlinks of 10 s at 2 W.
 TEST(DamagedPlans, DownlinksKeepTheirLimitsOfEnergy) {
   SmallMission mission;
