@@ -12,6 +12,7 @@
 #include "core/temporal/timelines/timelines.hpp"
 #include "planner_svc/utility_htn/assessor/assessor.hpp"
 #include "planner_svc/utility_htn/cycle/placement.hpp"
+#include "planner_svc/utility_htn/cycle/sessions.hpp"
 #include "planner_svc/utility_htn/delivery/delivery.hpp"
 #include "planner_svc/utility_htn/search/search.hpp"
 
@@ -152,7 +153,7 @@ class Cycle {
   temporal::Duration duration(model::TaskIndex task) const;
   temporal::Duration length(const Block& block, std::size_t link) const;
   void fit_downlinks();
-  TaskId first_downlink() const;
+  void keep_limits(Report& report);
   double budget() const;
   bool end_with_budget(temporal::Time now, Report& report);
   std::vector<double> values_now(temporal::Time now) const;
@@ -168,7 +169,7 @@ class Cycle {
   std::set<model::TaskIndex> requested_;
   std::map<model::TaskIndex, std::uint32_t> failures_;
   std::vector<Block> blocks_;  // by number
-  TaskId takes_rests_ = 0;     // the downlink that is next; also of data whose own has gone without them
+  Sessions sessions_;
   temporal::Time plan_end_ =
       temporal::no_bound;  // of the network, or before it where the budget does not last
   std::uint32_t last_block_ = 0;
