@@ -204,8 +204,10 @@ std::vector<AnswerReceipt> Reactor::answer_receipts() const { return parts_->dec
 
 std::vector<orders::OrderStatus> Reactor::order_statuses() const { return parts_->ground.book().all(); }
 
-const std::map<std::string, temporal::Value>& Reactor::ground_values() const {
-  return parts_->ground.values();
+std::map<std::string, temporal::Value> Reactor::ground_values() const {
+  auto out = parts_->ground.values();
+  for (auto& [timeline, value] : out) value = parts_->plan.executive().value_of(timeline).value_or(value);
+  return out;
 }
 
 const std::map<std::string, temporal::Value>& Reactor::observed() const {

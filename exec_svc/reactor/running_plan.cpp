@@ -53,7 +53,7 @@ RunningPlan::RunningPlan(MissionState& state)
 
 void RunningPlan::step(Time now, const ReactorInputs& inputs) {
   Inputs told;
-  told.observations = inputs.observations;
+  tell_observed(inputs.observations, told);
   for (Observation& change : changed_conditions()) {
     conflict_monitor_.observe(change.timeline, change.value);
     told.observations.push_back(std::move(change));
@@ -239,8 +239,19 @@ std::vector<PlannedAction> RunningPlan::remaining() const {
 
 void RunningPlan::restore_observations(const std::vector<Observation>& observations) {
   Inputs observed;
-  observed.observations = observations;
+  tell_observed(observations, observed);
   executive_.step(Time{0}, observed);
+}
+
+/// What the ground sets, nobody observes: it is so from then on, until an activity makes something else of it.
+void RunningPlan::tell_observed(const std::vector<Observation>& observations, Inputs& told) const {
+  for (const Observation& one : observations)
+    (is_set_by_ground(one.timeline) ? told.settings : told.observations).push_back(one);
+}
+
+bool RunningPlan::is_set_by_ground(const std::string& timeline) const {
+  const auto& values = state_->mission->ground.values;
+  return std::ranges::find(values, timeline) != values.end();
 }
 
 /// Facts are derived from observations here, where the metadata is; the executive sees each as one more
@@ -248,6 +259,7 @@ void RunningPlan::restore_observations(const std::vector<Observation>& observati
 std::vector<Observation> RunningPlan::changed_conditions() {
   std::vector<Observation> out;
   for (auto& [name, last] : condition_values_) {
+    if (is_set_by_ground(name)) continue;  // it is told when it is set
     auto value = state_->beliefs.lookup(name);
     if (!value || *value == last) continue;
     last = *value;

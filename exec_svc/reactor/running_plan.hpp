@@ -105,6 +105,8 @@ class RunningPlan {
   void close_record();
   void watch(const temporal::FlexiblePlan& plan, bool launched_again = false);
   std::vector<executive::Observation> changed_conditions();
+  void tell_observed(const std::vector<executive::Observation>& observations, executive::Inputs& told) const;
+  bool is_set_by_ground(const std::string& timeline) const;
   void forward(executive::Outputs done);
   void report_windows();
 

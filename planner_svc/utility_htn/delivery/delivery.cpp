@@ -134,6 +134,35 @@ std::set<model::TaskIndex> Delivery::requests_with_data() const {
   return out;
 }
 
+temporal::Duration Delivery::longest(model::TaskIndex task, Time start,
+                                     std::span<const search::PlannedDownlink> others,
+                                     const model::Values& values) const {
+  const std::uint32_t sol = rules_.sol_of(start, values);
+  double left = rules_.sol_limit_j(values) - spent_in(sol);
+  for (const search::PlannedDownlink& other : others)
+    if (const downlink::Window window = rules_.window(other, values); window.sol == sol)
+      left -= Rules::joules(window);
+  const double joules = std::max(0.0, std::min(left, rules_.downlink_limit_j(values)));
+  const double power = model::draw(network_, network_.tasks[task], values);
+  if (power <= 0 || !std::isfinite(joules)) return temporal::no_bound;
+  return temporal::seconds(std::floor(joules / power));
+}
+
+std::set<std::uint32_t> Delivery::overdrawn_sols(std::span<const search::PlannedDownlink> downlinks,
+                                                 const model::Values& values) const {
+  std::set<std::uint32_t> out;
+  const double limit = rules_.sol_limit_j(values);
+  if (!rules_.has_rate() || !std::isfinite(limit)) return out;
+  std::map<std::uint32_t, double> joules;
+  for (const search::PlannedDownlink& one : downlinks) {
+    const downlink::Window window = rules_.window(one, values);
+    joules[window.sol] += Rules::joules(window);
+  }
+  for (const auto& [sol, sum] : joules)
+    if (sum + spent_in(sol) > limit) out.insert(sol);
+  return out;
+}
+
 RankVector Delivery::received() const {
   RankVector out;
   for (const Existing& product : existing_)

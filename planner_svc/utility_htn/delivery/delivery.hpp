@@ -102,9 +102,20 @@ class Delivery {
   bool limited() const { return rules_.has_rate(); }
   /// Returns how long the data take that wait on board, of all that these requests have generated but what is residual. A downlink that is
   /// to bring them home lasts that long at least (R127).
-  temporal::Duration transmission(const std::set<model::TaskIndex>& requests, const model::Values& values) const;
+  temporal::Duration transmission(const std::set<model::TaskIndex>& requests,
+                                  const model::Values& values) const;
   /// Returns the requests whose data wait on board, without residual ones.
   std::set<model::TaskIndex> requests_with_data() const;
+  /// Returns how long a downlink that starts then may last by the limit of one downlink and, beside all others, by that of its sol.
+  temporal::Duration longest(model::TaskIndex task, temporal::Time start,
+                             std::span<const search::PlannedDownlink> others,
+                             const model::Values& values) const;
+  /// Returns the sols of which these downlinks and what was executed take more than the limit.
+  std::set<std::uint32_t> overdrawn_sols(std::span<const search::PlannedDownlink> downlinks,
+                                         const model::Values& values) const;
+  std::uint32_t sol_of(temporal::Time time, const model::Values& values) const {
+    return rules_.sol_of(time, values);
+  }
   /// Returns what was received on Earth with its last byte: executed utility, of which nothing is predicted.
   temporal::RankVector received() const;
 
