@@ -136,6 +136,7 @@ class SimService final : public services::Service, private owner::Driver {
     record_effects();
     record_begun();
     if (kept_) kept_->keep(world_.memory());
+    end_if_over();
     if (wake_) node_.cancel(*wake_);
     wake_.reset();
     const auto next = world_.next_change();
@@ -266,9 +267,10 @@ class SimService final : public services::Service, private owner::Driver {
     return over;
   }
 
-  // The mission may go on when a goal arrives in the meantime.
+  // The mission may go on when a goal arrives in the meantime. What is on its way to Earth still arrives.
   void end_if_over() {
-    const bool over = mission_over() && stimuli_done_ == scenario_.stimuli.size();
+    const bool over =
+        mission_over() && stimuli_done_ == scenario_.stimuli.size() && !world_.has_data_under_way();
     if (over == farewell_.has_value()) return;
     if (over) {
       farewell_ = node_.after(kFarewell,

@@ -86,6 +86,8 @@ class Robot {
   RobotMemory memory(temporal::Time now) const;
   /// Before the first task; the memory is of `at`.
   void restore(const RobotMemory&, temporal::Time at);
+  /// Returns whether it has sent data that are not received yet.
+  bool has_data_under_way() const;
   /// Returns when a task ends or numbers are due.
   temporal::Time next_change() const;
   /// Returns when the battery will be empty if everything goes on at its peak power, or nothing if never.

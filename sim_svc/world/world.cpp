@@ -189,6 +189,10 @@ std::optional<Time> World::next_change() const {
   return best;
 }
 
+bool World::has_data_under_way() const {
+  return std::ranges::any_of(robots_, [](const Robot& one) { return one.has_data_under_way(); });
+}
+
 Time World::next_event() const {
   std::optional<Time> best = next_tick();
   for (const Robot& one : robots_) keep_earlier(best, one.next_change());

@@ -289,6 +289,7 @@ bool Cycle::follow(Time now) {
         // A load that was planned to end with the budget goes on until its executor says otherwise.
         const Time due = std::min(before.end, before.start + length(one, i));
         if (due < now) one.links[i].end = expected(due, now);
+        if (due > now) one.links[i].end = due;  // it was expected to end with the budget, and lasts
       }
       if (one.links[i] == before) continue;
       changed |= one.links[i].end != before.end;
@@ -489,7 +490,10 @@ bool Cycle::end_with_budget(Time now, Report& report) {
     const double power = model::draw(network_, task, past_.values);
     if (!task.commands.empty() || power <= 0 || load.end <= now) continue;
     const double left = timelines_.value(network_.budget, now) - definition.lowest;
-    if (left > power * temporal::to_seconds(load.end - now)) continue;
+    if (left > power * temporal::to_seconds(load.end - now)) {
+      if (plan_end_ <= now) plan_end_ = network_.cycle.plan_end;
+      continue;
+    }
     load.end = plan_end_ = now + temporal::seconds(left / power / 2);
     timelines_.move(task_id(one.number, 0), load.start, load.end);
     report.notes.push_back("the budget does not last to the end of the mission: it is planned to " +

@@ -94,6 +94,7 @@ bool Cycle::repair(Time now, Report& report) {
       abandon(*block(number), kNoTimeLeft, report);
     }
   }
+  if (changed) keep_rules(now, report);  // the map may have led through what was taken out
   if (changed && to_schedule_) schedule(now, report);
   return changed;
 }

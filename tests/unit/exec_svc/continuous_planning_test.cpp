@@ -119,6 +119,28 @@ TEST_F(ContinuousPlanning, WhatIsCommittedStartsAndTheRestWaitsForItsCommit) {
   EXPECT_EQ(reactor.counts().planner_calls, 0U);
 }
 
+// A load that is always on and a wait that nothing ends hold no mission open whose goals are achieved; what a command runs ends by itself.
+TEST_F(ContinuousPlanning, APlanEndsWithTheLastGoalAndWhatRunsByCommand) {
+  engine.image("1", CommitState::committed);
+  engine.activity("load", "", 1e6).commit = CommitState::committed;
+  PlanActivity& sends = engine.activity("sends", "sim_svc", 10, 1e6);
+  sends.subsystem = "radio";
+  sends.command_name = "send";
+  sends.commit = CommitState::committed;
+  PlanActivity& waits = engine.activity("waits", "", 1);
+  waits.commit = CommitState::committed;
+  engine.window(engine.start("waits"), 5e5, 1e6);
+  engine.image("next", CommitState::committed, 500);
+  at(700, [this] { pending.acks.push_back({"sends", 1, executive::CommandStage::completed, "", ""}); });
+  run(600, with_plan(robot_and({photo("1")})));
+  EXPECT_EQ(reactor.goals().find({"ground", "1"})->state, goals::GoalState::achieved);
+  EXPECT_EQ(reactor.outcome(), "") << "a command is under way";
+  EXPECT_THAT(begun(), ElementsAre("1", "next")) << "what is committed is carried out";
+  run(1000, {});
+  EXPECT_EQ(reactor.outcome(), "achieved");
+  EXPECT_THAT(trace, AllOf(Contains("plan.finished"), Not(Contains("cancel"))));
+}
+
 TEST_F(ContinuousPlanning, WhatRunsGoesOnUnderTheNextVersion) {
   engine.image("1", CommitState::committed);
   engine.image("2", CommitState::planned, 100);
@@ -287,9 +309,7 @@ TEST_F(ConflictsAhead, WhatARetryTakesAgainIsMissed) {
       {"rover.battery", temporal::ImpactKind::delta, temporal::ImpactWhen::at_end, -200000.0}};
   needs_battery("2");
   see_at(1, "rover.battery", 600000.0);
-  at(10, [this] {
-    pending.acks.push_back({"1", 1, executive::CommandStage::failed, "dark", "too dark"});
-  });
+  at(10, [this] { pending.acks.push_back({"1", 1, executive::CommandStage::failed, "dark", "too dark"}); });
   run(9, with_plan(robot_and({photo("1"), photo("2")})));
   EXPECT_EQ(reactor.receipt().conflict, "");
   run(11, {});

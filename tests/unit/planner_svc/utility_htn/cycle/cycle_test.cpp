@@ -308,6 +308,24 @@ TEST_F(CycleTest, WhereTheBudgetDoesNotLastTheMissionEndsBefore) {
   EXPECT_THAT(cycle.past().done, Contains(chains_.chains[load.chain].task));
 }
 
+// What was left for being there is planned with in the same way when that end has come: half of it, and so on.
+TEST_F(CycleTest, WhatIsLeftOfTheBudgetAtThatEndIsPlannedWith) {
+  Cycle cycle = make();
+  cycle.run(Time{0});
+  const TaskId load = task_id(block_of_request(cycle, "idle").number, 0);
+  const Time start = block_of_request(cycle, "idle").links.front().start;
+  cycle.run(start);
+  cycle.begun(load, start);
+  cycle.observe(testing::kBattery, start, 200);
+  cycle.run(start + 10s);
+  const Time end = block_of_request(cycle, "idle").links.front().end;
+  cycle.observe(testing::kBattery, end + 5s, 80);
+  cycle.run(end + 5s);
+  EXPECT_EQ(block_of_request(cycle, "idle").links.front().end, end + 5s + 40s);
+  cycle.ended(load, end + 10s, true);  // it is on the timelines still
+  EXPECT_EQ(block_of_request(cycle, "idle").links.front().stage, Stage::succeeded);
+}
+
 TEST_F(CycleTest, AValueOutOfItsRangeIsRefused) {
   Cycle cycle = make();
   EXPECT_THAT(cycle.set_value(0, 1000), HasSubstr("dig_s = 1000"));
