@@ -93,7 +93,8 @@ void Cycle::tried_again(TaskId task, Time at) {
 void Cycle::ended(TaskId task, Time at, bool succeeded, const std::string& cause) {
   Link* const one = link(task);
   if (one == nullptr || is_over(one->stage)) return;
-  const bool placed = is_placed(*one);
+  const bool placed =
+      is_placed(*one) && timelines_.placed(task);  // consolidation has forgotten what should be over
   to_optimize_ |= one->end != at || !succeeded;
   one->start = std::min(one->start, at);
   one->end = at;
@@ -278,7 +279,8 @@ bool Cycle::follow(Time now) {
       if (before.stage == Stage::committed) await_start(one, i, now);
       if (before.stage == Stage::running && before.end <= now) {
         // What is due just now may have ended; what is overdue has not.
-        const Time due = before.start + length(one, i);
+        // A load that was planned to end with the budget goes on until its executor says otherwise.
+        const Time due = std::min(before.end, before.start + length(one, i));
         if (due < now) one.links[i].end = expected(due, now);
         if (due > now) one.links[i].end = due;  // it was expected to end with the budget, and lasts
       }
