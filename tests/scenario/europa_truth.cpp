@@ -33,7 +33,6 @@ class Mean {
 };
 
 double seconds(long long us) { return static_cast<double>(us) / 1e6; }
-std::string task_of(const std::string& activity) { return activity.substr(0, activity.rfind('#')); }
 
 // What each task took, by its id; energy of its commands alone.
 struct Taken {
@@ -214,7 +213,8 @@ const Product* product_of(const Network& network, const Course::Product& data) {
   const Product* out = nullptr;
   for (const Task& task : network.tasks)
     for (const Product& product : task.products)
-      if (product.name == data.kind && (out == nullptr || task.id == task_of(data.source))) out = &product;
+      if (product.name == data.kind && (out == nullptr || data.source.starts_with(task.id + "#")))
+        out = &product;
   return out;
 }
 

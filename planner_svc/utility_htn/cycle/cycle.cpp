@@ -396,7 +396,25 @@ Duration Cycle::length(const Block& block, std::size_t link) const {
              : duration(task);
 }
 
-// Data that turned out larger or smaller than foreseen make planned downlinks longer or shorter (R127).
+// Returns when something begins behind the link that claims what the link claims and does not give way.
+Time Cycle::free_until(const Link& of) const {
+  Time out = temporal::no_bound;
+  for (const model::Impact& claim : network_.tasks[of.task].impacts) {
+    if (!network_.timelines[claim.timeline].is_claim()) continue;
+    for (const Block& one : blocks_)
+      for (const Link& each : one.links) {
+        const model::Task& task = network_.tasks[each.task];
+        const bool stands = task.fixed || each.stage == Stage::committed;
+        if (stands && is_placed(each) && each.start >= of.end &&
+            std::ranges::find(task.impacts, claim.timeline, &model::Impact::timeline) != task.impacts.end())
+          out = std::min(out, each.start);
+      }
+  }
+  return out;
+}
+
+// Data that turned out larger or smaller than foreseen make planned downlinks longer or shorter (R127); what would run into something fixed
+// or committed goes with a later one.
 void Cycle::fit_downlinks() {
   if (delivery_ == nullptr) return;
   sessions_.look(blocks_, *delivery_);
@@ -404,8 +422,10 @@ void Cycle::fit_downlinks() {
     for (std::size_t i = 0; i < one.links.size(); ++i) {
       Link& each = one.links[i];
       if (each.stage != Stage::planned || !one.begun() || one.failed()) continue;
-      const Duration takes = length(one, i);
-      if (each.end - each.start == takes) continue;
+      const Duration now = each.end - each.start;
+      Duration takes = length(one, i);
+      if (takes > now) takes = std::max(now, std::min(takes, free_until(each) - each.start));
+      if (takes == now) continue;
       each.end = each.start + takes;
       timelines_.move(task_id(one.number, i), each.start, each.end);
       to_optimize_ = true;

@@ -152,6 +152,7 @@ class Cycle {
   temporal::timelines::Footprint footprint(const Block& block, std::size_t link) const;
   temporal::Duration duration(model::TaskIndex task) const;
   temporal::Duration length(const Block& block, std::size_t link) const;
+  temporal::Time free_until(const Link& of) const;
   void fit_downlinks();
   void keep_limits(Report& report);
   double budget() const;

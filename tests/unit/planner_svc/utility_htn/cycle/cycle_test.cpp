@@ -204,7 +204,7 @@ TEST_F(CycleTest, LessEnergyThanForeseenMakesRoomForTheBetterOne) {
   cycle.observe(testing::kBattery, 5s, 500);  // 350 J for the sample, 150 J for the view, 300 J for idling
   const Report report = cycle.run(10s);
   EXPECT_THAT(requests(cycle), Contains("sample"));
-  EXPECT_THAT(report.notes, Contains(HasSubstr("'idle' is not planned, since it costs 300 of 'battery'")));
+  EXPECT_THAT(report.notes, Contains(HasSubstr("'view/plain' is not planned, since it costs 150 of 'battery'")));
   EXPECT_THAT(cycle.timelines().conflicts(40s, temporal::no_bound), IsEmpty());
 }
 

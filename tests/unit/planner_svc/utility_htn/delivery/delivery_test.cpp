@@ -202,6 +202,22 @@ class LongSessions : public DeliveryTest {
   }
 };
 
+TEST_F(LongSessions, EndBeforeSomethingFixedThatNeedsTheSame) {
+  const model::Impact takes{testing::kArm, temporal::ImpactKind::delta, temporal::ImpactWhen::during, {1}};
+  task("send_sample").impacts.push_back(takes);
+  model::Task uplink;
+  uplink.id = uplink.name = "uplink";
+  uplink.fixed = true;
+  uplink.preferred_start = 230s;
+  uplink.duration = {10};
+  uplink.impacts = {takes};
+  network_.tasks.push_back(uplink);
+  begin();
+  wait_for_it(600);
+  EXPECT_THAT(planned(20s), Contains("uplink"));
+  EXPECT_EQ(session(), 50s) << "60 s would run into the uplink";
+}
+
 TEST_F(LongSessions, AreNoLongerThanTheLimitOfADownlinkPermits) {
   add_parameter("downlink_limit_j", 120);
   begin();
