@@ -124,7 +124,7 @@ std::span<const TopicRights> topic_rights() {
 
 std::set<Role> roles_of_program(std::string_view program) {
   if (program == "exec_svc") return {service, executive};
-  if (program == "planner_svc") return {service, planner};
+  if (program == "planner_svc") return {service, planner, resolver};
   if (program == "pathplan_svc") return {service, path_planner};
   if (program == "arm_svc") return {service, arm_planner};
   if (program == "science_svc") return {service, analyst};

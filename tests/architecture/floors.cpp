@@ -25,7 +25,8 @@ const std::vector<House> kHouses = {
       "services/health/", "services/node/", "services/rpc/", "services/", "services/owner/",
       "services/commander/", "services/security/", "services/process/", "services/launch/"}},
     {"planner_svc/",
-     {"planner_svc/engine/", "planner_svc/temporal_pddl/", "planner_svc/utility_htn/", "planner_svc/"}},
+     {"planner_svc/engine/", "planner_svc/temporal_pddl/", "planner_svc/utility_htn/",
+      "planner_svc/timeline_htn/", "planner_svc/"}},
     // The checker shares the readers alone with what it checks.
     {"planner_svc/utility_htn/",
      {"planner_svc/utility_htn/model/", "planner_svc/utility_htn/reading/",
@@ -35,6 +36,11 @@ const std::vector<House> kHouses = {
       "planner_svc/utility_htn/delivery/", "planner_svc/utility_htn/cycle/",
       "planner_svc/utility_htn/adapter/", "planner_svc/utility_htn/cli/", "planner_svc/utility_htn/"}},
     {"dedicated_svc/", {"dedicated_svc/methods/", "dedicated_svc/method_run/", "dedicated_svc/"}},
+    {"planner_svc/timeline_htn/",
+     {"planner_svc/timeline_htn/model/", "planner_svc/timeline_htn/reading/",
+      "planner_svc/timeline_htn/checking/", "planner_svc/timeline_htn/search/",
+      "planner_svc/timeline_htn/extraction/", "planner_svc/timeline_htn/adapter/",
+      "planner_svc/timeline_htn/cli/", "planner_svc/timeline_htn/"}},
     {"sim_svc/",
      {"sim_svc/world/", "sim_svc/setup/", "sim_svc/components/", "sim_svc/scenario/", "sim_svc/"}},
 };

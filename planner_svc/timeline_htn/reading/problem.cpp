@@ -1,0 +1,77 @@
+#include "planner_svc/timeline_htn/model/bounds.hpp"
+#include "planner_svc/timeline_htn/reading/sections.hpp"
+
+namespace roci::planner::timeline_htn::reading {
+
+using mission::Entry;
+using model::Index, model::Part;
+
+namespace {
+
+temporal::Duration seconds(const Entry& entry) {
+  if (entry.text() == "none") return temporal::no_bound;
+  const double number = entry.number();
+  if (number < 0 || number > temporal::to_seconds(model::kLongestDuration))
+    entry.fail("expected seconds from the origin on, at most 31 years");
+  return temporal::seconds(number);
+}
+
+void read_goal(const Entry& entry, model::Goal& goal, const Names& names, Vocabulary& vocabulary) {
+  Entry state = entry;
+  if (entry.is_mapping()) {
+    entry.allow_only({"state", "window_s", "after"});
+    state = entry.at("state");
+    if (const auto window = entry.find("window_s")) {
+      const auto both = window->items();
+      if (both.size() != 2) window->fail("expected [opens, closes]");
+      goal.opens = seconds(both[0]);
+      goal.closes = seconds(both[1]);
+      if (goal.opens == temporal::no_bound) both[0].fail("a window opens at some time; write 0");
+    }
+    if (const auto after = entry.find("after"))
+      for (const Entry& one : one_or_more(*after, model::kMostGoals))
+        goal.after.push_back(names.index(one.text(), one));
+  }
+  Line line(state);
+  Scope none;
+  goal.state = vocabulary.pattern(line, none);
+  line.expect_end();
+}
+
+}  // namespace
+
+void read_problem(const Entry& section, Vocabulary& vocabulary, Places& places) {
+  section.allow_only({"horizon_s", "goals_changed", "initial", "goals"});
+  if (vocabulary.model.problem) section.fail("there is a problem already; keep one");
+  places[{Part::problem, 0, 0}] = section.place();
+  model::Problem& problem = vocabulary.model.problem.emplace();
+  problem.initial.resize(vocabulary.model.components.size());
+  const Entry horizon = section.at("horizon_s");
+  problem.horizon = seconds(horizon);
+  if (problem.horizon == temporal::no_bound) horizon.fail("a plan ends at some time; write its seconds");
+  problem.goals_changed = section.truth_or("goals_changed", false);
+  if (const auto initial = section.find("initial")) {
+    initial->each_field([&](const std::string& name, const Entry& state) {
+      const Index component = vocabulary.components.index(name, state);
+      if (problem.initial[component]) state.fail("the state of '" + name + "' stands twice; keep one");
+      Line line(state);
+      Scope none;
+      problem.initial[component] = vocabulary.pattern_of(component, line, none);
+      line.expect_end();
+    });
+  }
+  const auto goals = section.find("goals");
+  if (!goals) return;
+  const auto all = fields(*goals, model::kMostGoals);
+  Names names("goal");
+  for (const auto& [name, value] : all)
+    value.attempt([&, &name = name, &value = value] { names.add(name, value); });
+  for (const auto& [name, value] : all) {
+    places[{Part::goal, static_cast<Index>(problem.goals.size()), 0}] = value.place();
+    model::Goal& goal = problem.goals.emplace_back();
+    goal.id = name;
+    value.attempt([&, &value = value] { read_goal(value, goal, names, vocabulary); });
+  }
+}
+
+}  // namespace roci::planner::timeline_htn::reading

@@ -1,0 +1,167 @@
+// What is wrong in a model is told with file, line, column and remedy, all of it at once.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "tests/unit/planner_svc/timeline_htn/reading/texts.hpp"
+
+namespace roci::planner::timeline_htn::reading {
+namespace {
+
+using testing::HasSubstr;
+
+struct Case {
+  std::string from, to, says;
+};
+
+void expect_faults(const std::vector<Case>& cases) {
+  for (const Case& c : cases)
+    EXPECT_THAT(faults_of(with(kSound, c.from, c.to)), HasSubstr(c.says)) << c.from << " -> " << c.to;
+}
+
+TEST(TimelineModelFaults, NamesAreToldWithPlaceAndRemedy) {
+  expect_faults({
+      {"drive: wheels.drive(from, to)", "drive: weels.drive(from, to)",
+       "m.yaml:46:14: unknown component 'weels'; did you mean 'wheels'?"},
+      {"drive: wheels.drive(from, to)", "drive: wheels.driv(from, to)",
+       "m.yaml:46:14: unknown state 'driv'; did you mean 'drive'?"},
+      {"there: {state: \"navigation.traverse(wp0, wp1)\"", "there: {state: \"navigaton.traverse(wp0, wp1)\"",
+       "unknown component 'navigaton'; did you mean 'navigation'?"},
+      {"wheels: at(wp0)", "wheels: at(wp9)",
+       "'wp9' is no variable here and no waypoint; did you mean 'wp0'?"},
+      {"wheels: at(wp0)", "wheels: at(status)", "'status' is of type report, and a waypoint is wanted"},
+      {"wheels: at(wp0)", "wheels: at", "'at' has 1 arguments, not 0; write as many"},
+      {"wheels: at(wp0)", "wheel: at(wp0)", "unknown component 'wheel'; did you mean 'wheels'?"},
+      {"report: [status]", "reprt: [status]", "unknown type 'reprt'; did you mean 'report'?"},
+      {"report: [status]", "report: [wp0]", "there is a object 'wp0' already, at m.yaml:4:22; rename one"},
+      {"edge(from, to)", "egde(from, to)",
+       "'egde' is no relation, number, variable or object here; did you mean 'edge'?"},
+      {"  idle: {kind: default}", "  idle: {kind: defalt}",
+       "m.yaml:13:20: expected one of complex, simple, error, default, not 'defalt'; did you mean "
+       "'default'?"},
+      {"layer: abstract", "layer: high", "expected one of abstract, primitive, not 'high'"},
+      {"drive before tell", "drive before tel", "unknown subgoal 'tel'; did you mean 'tell'?"},
+      {"drive before tell [0, 60]", "drive after tell", "expected one of before, meets, starts"},
+      {"after: [there]", "after: [their]", "unknown goal 'their'; known: there, told"},
+      {"binds: what", "binds: wat", "'wat' is no variable of the behaviour"},
+      {"resolver: ground", "resolver: grund", "expected one of engine, ground, rule, not 'grund'"},
+      {"retries: 2", "retry: 2", "unknown key 'retry'"},
+      {"unstick:", "step:", "there is a behaviour 'step' already, at"},
+      {"achieves: navigation.traverse(from, to)", "achieves: wheels.drive(from, to)",
+       "'wheels.drive' is simple, and a behaviour achieves a complex state"},
+  });
+}
+
+TEST(TimelineModelFaults, NumbersAndLinesAreToldWithPlaceAndRemedy) {
+  expect_faults({
+      {"[[wp0, wp1, 4]", "[[wp0, wp1, far]", "expected a finite number, not 'far'"},
+      {"[[wp0, wp1, 4]", "[[wp0, wp1, .inf]", "expected a finite number"},
+      {"[[wp0, wp1, 4]", "[[wp0, 4]", "the row has 2 entries, 3 are expected"},
+      {"[[wp0, wp1, 4]", "[[wp1, wp0, 4]", "the table has another number for these objects already"},
+      {"metres(from, to) / 0.5", "metres(from, to) / ", "expected a name at the end"},
+      {"metres(from, to) / 0.5", "metres(from, to) / 1e999", "expected a finite number"},
+      {"metres(from, to) / 0.5", "metres(from, to) 5", "'5' stands where the line should end"},
+      {"metres(from, to) / 0.5\", ", "none\", none, ", "expected one duration, or [shortest, longest]"},
+      {"answer_within_s: 5", "answer_within_s: 0", "expected seconds above 0"},
+      {"window_s: [5, 300]", "window_s: [5]", "expected [opens, closes]"},
+      {"horizon_s: 600", "horizon_s: none", "a plan ends at some time"},
+      {"horizon_s: 600", "horizon_s: 1e300", "expected seconds from the origin on"},
+      {"retries: 2", "retries: -1", "expected a whole number from 0 to 1000"},
+      {"kind: default}\n      traverse", "kind: default, duration_s: 5}\n      traverse",
+       "a default state lasts as long as nothing else is asked"},
+      {"kind: complex, ", "kind: complex, duration_s: 5, ", "a complex state has no 'duration_s'"},
+      {"format: 1", "format: 2", "m.yaml:1:9: this form is newer than 1"},
+      {"format: 1", "include: x.yaml", "a text that came without a folder includes no files"},
+      {"[wp0, wp1]]}\nnumbers", "[wp0, wp1]}\nnumbers", "not valid YAML"},
+  });
+}
+
+TEST(TimelineModelFaults, WhatContradictsItselfIsToldAtItsPart) {
+  expect_faults({
+      {"initial: {navigation: idle, wheels: at(wp0), antenna: stowed}",
+       "initial: {navigation: idle, antenna: stowed}",
+       "m.yaml:57:3: the problem does not say in which state 'wheels' begins; add it under 'initial'"},
+      {"wheels: at(wp0)", "wheels: \"drive(wp0, wp0)\"", "there is no state wheels.drive(wp0, wp0)"},
+      {"navigation: idle", "navigation: \"traverse(wp0, wp1)\"", "'navigation' begins in a complex state"},
+      {"told: {state: antenna.send(status), after: [there]}", "told: {state: wheels.stuck(wp0)}",
+       "goal 'told': it asks for an error state"},
+      {"window_s: [5, 300]", "window_s: [300, 5]", "goal 'there': its window closes before it opens"},
+      {"window_s: [5, 300]", "window_s: [900, none]", "its window opens after the horizon, 600 s"},
+      {"window_s: [5, 300]", "after: [told]", "goal 'there': it comes after itself"},
+      {"antenna.send(what), contingency: silence", "wheels.stuck(to)",
+       "its subgoal 'tell' is an error state"},
+      {"drive: wheels.drive(from, to)", "drive: navigation.idle",
+       "its subgoal 'drive' is a state of the very component that it stands on"},
+      {"kind: default}\n      traverse", "kind: error}\n      traverse",
+       "m.yaml:11:5: component 'navigation': it has no state to rest in"},
+      {"\"drive(x, y) -> at(y)\", ", "", "m.yaml:22:9: state 'wheels.drive': nothing can follow it"},
+      {"stuck(x) -> at(x)", "at(x) -> drive(x, x)", ""},
+      {"layer: primitive\n    robot", "layer: abstract\n    robot",
+       "it has a command, and its component is abstract"},
+      {"duration_s: 10", "duration_s: [10, 5]", "state 'antenna.send': its duration is negative"},
+      {"choices: {a: {subgoals: tell", "choices: {a: {subgoals: other", "stands in two choices"},
+  });
+}
+
+TEST(TimelineModelFaults, BehavioursThatNeverEndAreNamed) {
+  expect_faults({
+      {"drive: wheels.drive(from, to)", "drive: \"navigation.traverse(from, to)\"",
+       "behaviour 'step': it never ends: it needs navigation.traverse(from, to) to achieve just that"},
+      {"drive: wheels.drive(from, to)", "drive: \"navigation.traverse(to, from)\"",
+       "behaviour 'step': it never ends: it needs navigation.traverse(from, to)"},
+      {"drive: wheels.drive(from, to)", "drive: \"navigation.traverse(to, to)\"",
+       "behaviour 'step': it never ends: every behaviour for navigation.traverse(from, to) needs it again"},
+      {"free: wheels.at(place)}",
+       "free: \"navigation.traverse(place, place)\"}\n  step2: {achieves: \"navigation.traverse(x, y)\", "
+       "subgoals: {a: \"navigation.traverse(wp0, y)\"}}",
+       ""},
+  });
+}
+
+TEST(TimelineModelFaults, BehavioursThatContradictThemselvesInTimeAreNamed) {
+  expect_faults({
+      {"drive before tell [0, 60]", "drive before tell before drive",
+       "behaviour 'step': it contradicts itself in time: drive.start cannot be"},
+      {"drive before tell [0, 60]", "tell.start to tell.end [0, 5]",
+       "it contradicts itself in time: tell.end"},
+      {"drive before tell [0, 60]", "tell.start to self.end [0, 9]",
+       "it contradicts itself in time: self.end"},
+  });
+}
+
+TEST(TimelineModelFaults, AreToldAllAtOnce) {
+  std::string text = with(kSound, "drive: wheels.drive(from, to)", "drive: weels.drive(from, to)");
+  text = with(text, "retries: 2", "retries: x");
+  text = with(text, "wheels: at(wp0)", "wheels: at(wp9)");
+  text = with(text, "[[wp0, wp1, 4]", "[[wp0, wp1, far]");
+  const std::string all = faults_of(text);
+  EXPECT_GE(std::ranges::count(all, '\n'), 4) << all;
+}
+
+TEST(TimelineModelFaults, WhatIsMuchIsRefusedBeforeItIsMade) {
+  std::string rows;
+  for (int i = 0; i < 1000; ++i) rows += "[wp0, wp1], ";
+  std::string tables = with(kSound, "rows: [[wp0, wp1]]", "rows: &rows [" + rows + "[wp0, wp1]]");
+  std::string more;
+  for (int i = 0; i < 300; ++i)
+    more += "  e" + std::to_string(i) + ": {arguments: [waypoint, waypoint], rows: *rows}\n";
+  tables = with(tables, "numbers:\n", more + "numbers:\n");
+  const std::string told = faults_of(tables);
+  EXPECT_THAT(told, testing::AnyOf(HasSubstr("rows in all tables"), HasSubstr("tables of this kind")));
+  std::string deep;
+  for (int i = 0; i < 5000; ++i) deep += "[";
+  EXPECT_THAT(faults_of(with(kSound, "[waypoint, report]", deep)), HasSubstr("not valid YAML"));
+  std::string brackets;
+  for (int i = 0; i < 900; ++i) brackets += "(";
+  EXPECT_THAT(faults_of(with(kSound, "metres(from, to) / 0.5", brackets)),
+              HasSubstr("expected a name at the end"));
+  EXPECT_THAT(faults_of(with(kSound, "metres(from, to) / 0.5", std::string(5000, 'x'))),
+              HasSubstr("the line is longer than 1000 bytes"));
+  EXPECT_THAT(faults_of(std::string(9U << 20U, ' ')), HasSubstr("make it smaller"));
+}
+
+}  // namespace
+}  // namespace roci::planner::timeline_htn::reading
