@@ -87,7 +87,8 @@ class Delivery {
   /// Takes in a product's newest state; returns whether anything is new. Its request is what it was as soon as nobody knows it any more,
   /// since the plan forgets chains that have ended. A score that is negative or not finite counts as 0, one above a
   /// million as a million.
-  bool hear(Existing product);
+  /// `now` is when it was heard: a downlink that runs has been sending the next product since the last one was sent.
+  bool hear(Existing product, temporal::Time now = temporal::Time{0});
   /// Takes in what an executed downlink took, for the limit of its sol. `activity` is unique; what is told again counts once.
   void executed(std::uint64_t activity, model::TaskIndex task, temporal::Time start, temporal::Time end,
                 const model::Values& values);
@@ -102,7 +103,8 @@ class Delivery {
   bool limited() const { return rules_.has_rate(); }
   /// Returns how long the data take that wait on board, of all that these requests have generated but what is residual. A downlink that is
   /// to bring them home lasts that long at least (R127).
-  temporal::Duration transmission(const std::set<model::TaskIndex>& requests, const model::Values& values) const;
+  temporal::Duration transmission(const std::set<model::TaskIndex>& requests,
+                                  const model::Values& values) const;
   /// Returns the requests whose data wait on board, without residual ones.
   std::set<model::TaskIndex> requests_with_data() const;
   /// Returns what was received on Earth with its last byte: executed utility, of which nothing is predicted.
@@ -130,6 +132,7 @@ class Delivery {
   std::map<std::uint32_t, double> spent_;            // joules, by sol
   std::set<std::uint64_t> executed_;
   Counts counts_;
+  temporal::Time last_sent_{0};  // when the newest product was sent
 };
 
 }  // namespace roci::planner::utility_htn::delivery
