@@ -39,8 +39,8 @@ Drive::Drive(DriveSettings settings, world::RandomStream noise)
       soil_noise_(noise_.branch("soil")) {}
 
 State Drive::state() const {
-  if (target_ && target_->turns) return State{"turning", {}};
-  return target_ ? State{"going-to", {target_->place}} : State{"idle-at", {place_}};
+  if (!target_) return State{"idle-at", {place_}};
+  return State{"going-to", {target_->turns ? place_ : target_->place}};
 }
 
 std::optional<std::string> Drive::place() const {

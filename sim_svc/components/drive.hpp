@@ -39,9 +39,9 @@ class Drive final : public world::Component, public world::Mobility {
     return {{"drive", {"to", "x", "y"}}, {"turn", {"x", "y"}}};
   }
   std::vector<world::StateForm> state_forms() const override {
-    return {{"idle-at", 1}, {"going-to", 1}, {"turning", 0}};
+    return {{"idle-at", 1}, {"going-to", 1}};
   }
-  /// Returns idle-at (place), going-to (place) or turning.
+  /// Returns idle-at (place) or going-to (place): while it turns, the place where it stands.
   temporal::State state() const override;
   bool busy() const override { return target_.has_value(); }
   std::optional<std::string> place() const override;

@@ -151,7 +151,7 @@ TEST(DriveTurn, TurnsInPlaceTowardsAPoint) {
   flat.robot.drive.motion.heading_noise = 0;
   Flight run(flat);
   run.command(seconds(1), execute("t", "nav", "turn", {{"x", "20"}, {"y", "30"}}));
-  EXPECT_EQ(run.state("rover.nav"), (temporal::State{"turning", {}}));
+  EXPECT_EQ(run.state("rover.nav"), (temporal::State{"going-to", {"here"}}));
   run.advance(seconds(60));
   ASSERT_EQ(run.stage("t"), Stage::completed);
   EXPECT_NEAR(temporal::to_seconds(run.time_of("t")), 1 + kPi / 2 / 0.19, 0.11);
