@@ -282,8 +282,7 @@ bool Cycle::follow(Time now) {
       if (before.stage == Stage::committed) await_start(one, i, now);
       if (before.stage == Stage::running && before.end <= now) {
         // What is due just now may have ended; what is overdue has not.
-        // A load that was planned to end with the budget goes on until its executor says otherwise.
-        const Time due = std::min(before.end, before.start + length(one, i));
+        const Time due = before.start + length(one, i);
         if (due < now) one.links[i].end = expected(due, now);
         if (due > now) one.links[i].end = due;  // it was expected to end with the budget, and lasts
       }
