@@ -96,7 +96,8 @@ void Cycle::tried_again(TaskId task, Time at) {
 void Cycle::ended(TaskId task, Time at, bool succeeded, const std::string& cause) {
   Link* const one = link(task);
   if (one == nullptr || is_over(one->stage)) return;
-  const bool placed = is_placed(*one);
+  const bool placed =
+      is_placed(*one) && timelines_.placed(task);  // consolidation has forgotten what should be over
   to_optimize_ |= one->end != at || !succeeded;
   one->start = std::min(one->start, at);
   one->end = at;
@@ -230,6 +231,7 @@ std::vector<TaskIndex> Cycle::closed_but(std::set<TaskIndex> open, Time now) con
 Report Cycle::run(Time now) {
   Report report;
   report.notes = std::exchange(notes_, {});
+  const auto planned_before = not_begun();
   const auto does = [&](Activity what, bool changes) {
     if (!changes) return;
     report.done.push_back(what);
@@ -249,6 +251,7 @@ Report Cycle::run(Time now) {
   does(Activity::repair, (settings_.repairs && surprised && repair(now, report)) || reordered);
   if (settings_.optimizes) does(Activity::optimize, optimize(now, report));
   if (settings_.repairs && report.changed) keep_limits(report);
+  if (report.changed) tell_losses(planned_before, now, report);
   return report;
 }
 
@@ -395,7 +398,25 @@ Duration Cycle::length(const Block& block, std::size_t link) const {
              : duration(task);
 }
 
-// Data that turned out larger or smaller than foreseen make planned downlinks longer or shorter (R127).
+// Returns when something begins behind the link that claims what the link claims and does not give way.
+Time Cycle::free_until(const Link& of) const {
+  Time out = temporal::no_bound;
+  for (const model::Impact& claim : network_.tasks[of.task].impacts) {
+    if (!network_.timelines[claim.timeline].is_claim()) continue;
+    for (const Block& one : blocks_)
+      for (const Link& each : one.links) {
+        const model::Task& task = network_.tasks[each.task];
+        const bool stands = task.fixed || each.stage == Stage::committed;
+        if (stands && is_placed(each) && each.start >= of.end &&
+            std::ranges::find(task.impacts, claim.timeline, &model::Impact::timeline) != task.impacts.end())
+          out = std::min(out, each.start);
+      }
+  }
+  return out;
+}
+
+// Data that turned out larger or smaller than foreseen make planned downlinks longer or shorter (R127); what would run into something fixed
+// or committed goes with a later one.
 void Cycle::fit_downlinks() {
   if (delivery_ == nullptr) return;
   sessions_.look(blocks_, *delivery_);
@@ -403,8 +424,10 @@ void Cycle::fit_downlinks() {
     for (std::size_t i = 0; i < one.links.size(); ++i) {
       Link& each = one.links[i];
       if (each.stage != Stage::planned || !one.begun() || one.failed()) continue;
-      const Duration takes = length(one, i);
-      if (each.end - each.start == takes) continue;
+      const Duration now = each.end - each.start;
+      Duration takes = length(one, i);
+      if (takes > now) takes = std::max(now, std::min(takes, free_until(each) - each.start));
+      if (takes == now) continue;
       each.end = each.start + takes;
       timelines_.move(task_id(one.number, i), each.start, each.end);
       to_optimize_ = true;
@@ -452,7 +475,10 @@ double Cycle::budget() const {
 
 bool Cycle::end_with_budget(Time now, Report& report) {
   const auto ends = early_end(network_, past_.values, timelines_, blocks_, now);
-  if (!ends) return false;
+  if (!ends) {
+    if (plan_end_ <= now) plan_end_ = network_.cycle.plan_end;  // it lasts after all
+    return false;
+  }
   Link& load = block(ends->load)->links.front();
   load.end = plan_end_ = ends->end;
   timelines_.move(task_id(ends->load, 0), load.start, load.end);
@@ -466,9 +492,8 @@ bool Cycle::end_with_budget(Time now, Report& report) {
   return true;
 }
 
-Cycle::Found Cycle::plan_for(Time now, const std::set<TaskIndex>& candidates, Report& report,
-                             const search::Plan* known) {
-  const std::vector<double> newest = values_now(now);
+search::Problem Cycle::problem_for(Time now, const std::set<TaskIndex>& candidates,
+                                   std::span<const double> newest) {
   search::Problem problem{network_, past_.values, chains_, assessor_, scheduler_, timelines_};
   problem.from = now + network_.cycle.commit_window;
   problem.until = plan_end_;
@@ -483,6 +508,13 @@ Cycle::Found Cycle::plan_for(Time now, const std::set<TaskIndex>& candidates, Re
   problem.closed = closed_but(candidates, now);
   problem.standing = data();
   if (delivery_ != nullptr) delivery_->join(problem, now);
+  return problem;
+}
+
+Cycle::Found Cycle::plan_for(Time now, const std::set<TaskIndex>& candidates, Report& report,
+                             const search::Plan* known) {
+  const std::vector<double> newest = values_now(now);
+  search::Problem problem = problem_for(now, candidates, newest);
   const auto beats = [](const auto& worth, double cost, const auto& known_worth, double known_cost) {
     return worth > known_worth || (worth == known_worth && cost < known_cost - 1e-6);
   };

@@ -39,10 +39,11 @@ struct Settings {
 
 /// Tells what a cycle did.
 struct Report {
-  std::vector<Activity> done;      ///< in their order; those that had nothing to do are not named
-  std::uint64_t explored = 0;      ///< entries that searches took from their queues
-  bool changed = false;            ///< the placements are others than before
-  std::vector<std::string> notes;  ///< what was dropped or withdrawn, and why, in words
+  std::vector<Activity> done;  ///< in their order; those that had nothing to do are not named
+  std::uint64_t explored = 0;  ///< entries that searches took from their queues
+  bool changed = false;        ///< the placements are others than before
+  std::vector<std::string>
+      notes;  ///< what was dropped or withdrawn, and what is planned no longer, and why, in words
 };
 
 /// Is what outlives the process: with it and the blocks that are executed a cycle goes on as before.
@@ -127,11 +128,16 @@ class Cycle {
   void put_in(const Block& placed);
   void abandon(Block& begun, const std::string& why, Report& report);
   void forget_over(Report& report);
+  std::map<model::TaskIndex, std::uint32_t> not_begun() const;
+  void tell_losses(const std::map<model::TaskIndex, std::uint32_t>& planned_before, temporal::Time now,
+                   Report& report);
   void edit_network(model::TaskIndex task);
   struct Found {
     search::Plan plan;
     bool better = true;  // than the plan that was held against it
   };
+  search::Problem problem_for(temporal::Time now, const std::set<model::TaskIndex>& candidates,
+                              std::span<const double> newest);
   Found plan_for(temporal::Time now, const std::set<model::TaskIndex>& candidates, Report& report,
                  const search::Plan* known = nullptr);
   void adopt(const search::Plan& plan);
@@ -146,6 +152,7 @@ class Cycle {
   temporal::timelines::Footprint footprint(const Block& block, std::size_t link) const;
   temporal::Duration duration(model::TaskIndex task) const;
   temporal::Duration length(const Block& block, std::size_t link) const;
+  temporal::Time free_until(const Link& of) const;
   void fit_downlinks();
   void keep_limits(Report& report);
   double budget() const;

@@ -26,6 +26,7 @@ using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::Field;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 using ::testing::IsSupersetOf;
 using ::testing::Not;
 
@@ -139,6 +140,35 @@ TEST_F(ContinuousPlanning, APlanEndsWithTheLastGoalAndWhatRunsByCommand) {
   run(1000, {});
   EXPECT_EQ(reactor.outcome(), "achieved");
   EXPECT_THAT(trace, AllOf(Contains("plan.finished"), Not(Contains("cancel"))));
+}
+
+// What the ground has set counts until an activity makes something else of it, whatever versions come and whoever asks for it again.
+TEST_F(ContinuousPlanning, AnActivityChangesWhatTheGroundHasSet) {
+  mission.ground.values = {"hold"};
+  reactor = Reactor(mission);
+  const auto clear = [this](const std::string& id) {
+    orders::Order order;
+    order.key = {"ground", id};
+    order.kind = orders::OrderKind::set_value;
+    order.target = "hold";
+    order.content = state("clear");
+    pending.ground_orders.push_back(order);
+  };
+  PlanActivity& holds = engine.activity("holds", "", 10);
+  holds.commit = CommitState::committed;
+  holds.impacts = {{"hold", temporal::ImpactKind::assign, temporal::ImpactWhen::at_end, state("held")}};
+  engine.window(engine.start("holds"), 100);
+  engine.image("1", CommitState::committed, 200);
+  engine.find("1").pre = temporal::compare("hold", temporal::ConditionOp::eq, state("clear"));
+  engine.find("1").wait_timeout = seconds(1e4);
+  at(50, [&] { clear("first"); });
+  send_at(150, [this] { engine.image("2", CommitState::planned, 5000); });
+  run(400, with_plan(robot_and({photo("1")})));
+  EXPECT_THAT(begun(), IsEmpty());
+  EXPECT_EQ(reactor.ground_values().at("hold"), temporal::Value(state("held")));
+  at(500, [&] { clear("second"); });
+  run(600, {});
+  EXPECT_THAT(begun(), ElementsAre("1"));
 }
 
 TEST_F(ContinuousPlanning, WhatRunsGoesOnUnderTheNextVersion) {

@@ -100,6 +100,28 @@ TEST_F(DeliveryTest, ResidualDataAreNoReasonNotToPlan) {
   EXPECT_THAT(plan.left_out.front().why, Not(IsEmpty()));
 }
 
+// 200 bytes in 20 s. What was sent has left the store and taken its time all the same.
+TEST_F(DeliveryTest, ADownlinkThatRunsHasOnlyWhatIsLeftOfItsTime) {
+  task("dig").products.clear();
+  start();
+  delivery_->hear(stored("first", Tier::mandatory, 120));
+  delivery_->hear(stored("second", Tier::mandatory, 80));
+  planned();
+  const search::PlannedData all = cycle_->data();
+  search::PlannedData one{{}, {all.downlinks.front()}, 0, 0};
+  const Time begun = one.downlinks.front().start;
+  const auto sent = [&](Time now) {
+    return delivery_->schedule(one, cycle_->past().values, now).downlinks.front().products;
+  };
+  EXPECT_THAT(sent(begun), ElementsAre("first", "second"));
+  EXPECT_THAT(sent(begun + 10s), ElementsAre("first", "second")) << "it is in the middle of the first";
+  Existing first = stored("first", Tier::mandatory, 120);
+  first.fate = Fate::sent;
+  delivery_->hear(first, begun + 12s);
+  delivery_->hear(stored("more", Tier::mandatory, 120));
+  EXPECT_THAT(sent(begun + 13s), ElementsAre("second"));
+}
+
 TEST_F(DeliveryTest, TiersGoInTheirOrderWhenThereIsTooLittleRoom) {
   network_.parameters.back().prior = 5;  // 100 bytes in each of the two downlinks
   task("dig").products.clear();
@@ -201,6 +223,22 @@ class LongSessions : public DeliveryTest {
     throw std::logic_error("no sample is planned");
   }
 };
+
+TEST_F(LongSessions, EndBeforeSomethingFixedThatNeedsTheSame) {
+  const model::Impact takes{testing::kArm, temporal::ImpactKind::delta, temporal::ImpactWhen::during, {1}};
+  task("send_sample").impacts.push_back(takes);
+  model::Task uplink;
+  uplink.id = uplink.name = "uplink";
+  uplink.fixed = true;
+  uplink.preferred_start = 230s;
+  uplink.duration = {10};
+  uplink.impacts = {takes};
+  network_.tasks.push_back(uplink);
+  begin();
+  wait_for_it(600);
+  EXPECT_THAT(planned(20s), Contains("uplink"));
+  EXPECT_EQ(session(), 50s) << "60 s would run into the uplink";
+}
 
 TEST_F(LongSessions, AreNoLongerThanTheLimitOfADownlinkPermits) {
   add_parameter("downlink_limit_j", 120);
