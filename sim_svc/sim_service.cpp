@@ -89,6 +89,7 @@ class SimService final : public services::Service, private owner::Driver {
         observations_(services::advertise(node, topics::observation)),
         products_(services::advertise(node, topics::data_product)),
         hazards_(services::advertise(node, topics::hazard)),
+        findings_(services::advertise(node, topics::terrain_finding)),
         goals_(services::advertise(node, topics::goal)),
         network_orders_(services::advertise(node, topics::network_order)),
         events_(services::advertise(node, topics::event)) {
@@ -201,13 +202,19 @@ class SimService final : public services::Service, private owner::Driver {
   }
 
   void warn_of(const RockSeen& rock) {
-    hazards_.write(wire::to_wire(rock, node_.options().name));
+    if (rock.own_map)
+      findings_.write(wire::finding_of(rock));
+    else
+      hazards_.write(wire::to_wire(rock, node_.options().name));
     announce(v1::SEVERITY_WARNING, "hazard.seen",
              "a rock that the map does not show lies on the way (" + rock.id + ")");
   }
 
   void warn_of(const SoilMarked& soil) {
-    hazards_.write(wire::to_wire(soil, node_.options().name));
+    if (soil.own_map)
+      findings_.write(wire::finding_of(soil));
+    else
+      hazards_.write(wire::to_wire(soil, node_.options().name));
     announce(
         v1::SEVERITY_WARNING, "soil.no_go",
         soil.robot + " says No-Go for " + soil.judged_for + " (" + soil.id + ", " + soil.instrument + ")");
@@ -372,6 +379,7 @@ class SimService final : public services::Service, private owner::Driver {
   services::Publisher<v1::Observation> observations_;
   services::Publisher<v1::DataProduct> products_;
   services::Publisher<v1::Hazard> hazards_;
+  services::Publisher<v1::TerrainFinding> findings_;  ///< for a robot's own map
   services::Publisher<v1::Goal> goals_;
   services::Publisher<v1::NetworkOrder> network_orders_;
   std::optional<services::Publisher<v1::Order>> orders_;  ///< of scenarios that set values

@@ -178,6 +178,8 @@ const temporal::FlexiblePlan& Reactor::plan() const { return parts_->plan.execut
 
 const std::vector<PlannedAction>& Reactor::planned_actions() const { return parts_->plan.planned(); }
 
+const std::optional<ExecutedPlan>& Reactor::last_executed() const { return parts_->plan.last_executed(); }
+
 std::vector<StepStatus> Reactor::steps() const { return parts_->plan.executive().steps(); }
 
 MissionPhase Reactor::phase() const { return parts_->state.phase; }

@@ -42,6 +42,8 @@ class Reactor {
   /// What the planner wrote for it; after a restart what nobody had begun.
   const std::vector<PlannedAction>& planned_actions() const;
   std::vector<executive::StepStatus> steps() const;
+  /// RunningPlan::last_executed().
+  const std::optional<ExecutedPlan>& last_executed() const;
 
   MissionPhase phase() const;
   std::uint32_t plan_version() const;

@@ -82,6 +82,7 @@ DriveSettings read_drive_settings(setup::Settings& in) {
   if (const auto sensor = in.find("soil_sensor")) out.soil_sensor = read_soil_sensor(*sensor);
   out.detours = in.number("detours", out.detours);
   out.look_s = in.number("look_s", out.look_s, kPositive);
+  if (const auto own = in.find("own_map")) out.own_map = own->truth();
   out.planner = in.text("planner", out.planner);
   out.stop_place = in.text("stop_place", out.stop_place);
   return out;

@@ -27,7 +27,7 @@ struct SoilSensorSettings {
   world::Soil believed;                     ///< the strength that is taken for true where none was measured
   double most_sinkage_share = 0.25;         ///< of the wheel's diameter
   double most_traction_share = 0.75;  ///< of the thrust that the soil can bear (Footing::traction_share)
-  double mark_radius_m = 1.5;         ///< of the circle that is marked around a No-Go
+  double mark_radius_m = 1.5;         ///< of the circle that is marked, from the No-Go onwards
 };
 
 /// Is the verdict that the vehicle must not go there.

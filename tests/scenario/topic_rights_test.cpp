@@ -125,7 +125,7 @@ Used used_by_program(const std::string& program) {
   return out;
 }
 
-// A right that no service of a program uses is one too many. The engines that plan all the time, pairs and decisions have no part in
+// A right that no service of a program uses is one too many. The engines that plan all the time, pairs, decisions and maps that are told have no part in
 // these missions; an executive of a pair writes the goals anew that it takes over, and an engine that plans all the time reads more.
 TEST(TopicRightsOfServices, GiveNoMoreThanWhatIsUsed) {
   const std::set<std::string> elsewhere{"roci/exec/member",     "roci/exec/journal",
@@ -137,7 +137,7 @@ TEST(TopicRightsOfServices, GiveNoMoreThanWhatIsUsed) {
                                         "roci/plan/step",       "roci/order",
                                         "roci/order/status",    "roci/network/order",
                                         "roci/network/status",  "roci/downlink/schedule",
-                                        "roci/mission/outlook"};
+                                        "roci/mission/outlook", "roci/map/patch"};
   for (const mission::ServiceEntry& entry : rehearsal::crew_of(kMissions.front())) {
     const Used used = used_by_program(entry.program);
     std::set<Role> own = roles_of(entry);

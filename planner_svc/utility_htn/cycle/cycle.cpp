@@ -24,6 +24,9 @@ bool is_placed(const Link& link) { return !is_over(link.stage) && link.stage != 
 // Nothing is expected to be later than it is by more than this.
 constexpr Duration kFarthestExpectation = std::chrono::hours(1);
 
+// A search places and takes back all the time, and few tasks stand on one timeline: so changes shall be cheap.
+temporal::timelines::Extent lines_from(Time origin) { return {.origin = origin, .block = 24}; }
+
 bool is_request(const model::Task& task) { return !task.is_template; }
 
 }  // namespace
@@ -41,7 +44,7 @@ Cycle::Cycle(const model::Network& network, const flattening::Chains& chains,
       assessor_(assessor),
       scheduler_(scheduler),
       settings_(settings),
-      timelines_(network.timelines, origin),
+      timelines_(network.timelines, lines_from(origin)),
       past_{.values = model::priors(network)},
       sessions_(network, chains),
       plan_end_(network.cycle.plan_end),
@@ -93,7 +96,8 @@ void Cycle::tried_again(TaskId task, Time at) {
 void Cycle::ended(TaskId task, Time at, bool succeeded, const std::string& cause) {
   Link* const one = link(task);
   if (one == nullptr || is_over(one->stage)) return;
-  const bool placed = is_placed(*one);
+  const bool placed =
+      is_placed(*one) && timelines_.placed(task);  // consolidation has forgotten what should be over
   to_optimize_ |= one->end != at || !succeeded;
   one->start = std::min(one->start, at);
   one->end = at;
@@ -182,7 +186,7 @@ void Cycle::resume(const Past& past, std::vector<Block> blocks, std::uint32_t la
   past_ = past;
   for (const TaskIndex task : past.withdrawn) requested_.erase(task);
   last_block_ = last_block;
-  timelines_ = temporal::timelines::Timelines(network_.timelines, now);
+  timelines_ = temporal::timelines::Timelines(network_.timelines, lines_from(now));
   for (Index i = 0; i < network_.timelines.size(); ++i)
     if (network_.timelines[i].is_remembered()) timelines_.observe(i, now, past_.internal[i]);
   blocks_ = std::move(blocks);

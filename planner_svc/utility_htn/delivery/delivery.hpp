@@ -87,7 +87,8 @@ class Delivery {
   /// Takes in a product's newest state; returns whether anything is new. Its request is what it was as soon as nobody knows it any more,
   /// since the plan forgets chains that have ended. A score that is negative or not finite counts as 0, one above a
   /// million as a million.
-  bool hear(Existing product);
+  /// `now` is when it was heard: a downlink that runs has been sending the next product since the last one was sent.
+  bool hear(Existing product, temporal::Time now = temporal::Time{0});
   /// Takes in what an executed downlink took, for the limit of its sol. `activity` is unique; what is told again counts once.
   void executed(std::uint64_t activity, model::TaskIndex task, temporal::Time start, temporal::Time end,
                 const model::Values& values);
@@ -141,6 +142,7 @@ class Delivery {
   std::map<std::uint32_t, double> spent_;            // joules, by sol
   std::set<std::uint64_t> executed_;
   Counts counts_;
+  temporal::Time last_sent_{0};  // when the newest product was sent
 };
 
 }  // namespace roci::planner::utility_htn::delivery

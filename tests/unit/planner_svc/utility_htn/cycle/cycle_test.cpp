@@ -301,6 +301,12 @@ TEST_F(CycleTest, WhereTheBudgetDoesNotLastTheMissionEndsBefore) {
     if (!one.begun()) {
       EXPECT_LE(one.links.back().end, end);
     }
+  // It was said to end there, and does not.
+  for (Time now = start + 20s; now < end + 60s; now += 10s) cycle.run(now);
+  EXPECT_GT(block_of_request(cycle, "idle").links.front().end, end + 50s);
+  EXPECT_NO_THROW(cycle.ended(task_id(load.number, 0), end + 60s, true));
+  cycle.run(end + 60s);
+  EXPECT_THAT(cycle.past().done, Contains(chains_.chains[load.chain].task));
 }
 
 // What was left for being there is planned with in the same way when that end has come: half of it, and so on.

@@ -100,6 +100,28 @@ TEST_F(DeliveryTest, ResidualDataAreNoReasonNotToPlan) {
   EXPECT_THAT(plan.left_out.front().why, Not(IsEmpty()));
 }
 
+// 200 bytes in 20 s. What was sent has left the store and taken its time all the same.
+TEST_F(DeliveryTest, ADownlinkThatRunsHasOnlyWhatIsLeftOfItsTime) {
+  task("dig").products.clear();
+  start();
+  delivery_->hear(stored("first", Tier::mandatory, 120));
+  delivery_->hear(stored("second", Tier::mandatory, 80));
+  planned();
+  const search::PlannedData all = cycle_->data();
+  search::PlannedData one{{}, {all.downlinks.front()}, 0, 0};
+  const Time begun = one.downlinks.front().start;
+  const auto sent = [&](Time now) {
+    return delivery_->schedule(one, cycle_->past().values, now).downlinks.front().products;
+  };
+  EXPECT_THAT(sent(begun), ElementsAre("first", "second"));
+  EXPECT_THAT(sent(begun + 10s), ElementsAre("first", "second")) << "it is in the middle of the first";
+  Existing first = stored("first", Tier::mandatory, 120);
+  first.fate = Fate::sent;
+  delivery_->hear(first, begun + 12s);
+  delivery_->hear(stored("more", Tier::mandatory, 120));
+  EXPECT_THAT(sent(begun + 13s), ElementsAre("second"));
+}
+
 TEST_F(DeliveryTest, TiersGoInTheirOrderWhenThereIsTooLittleRoom) {
   network_.parameters.back().prior = 5;  // 100 bytes in each of the two downlinks
   task("dig").products.clear();

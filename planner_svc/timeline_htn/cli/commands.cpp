@@ -1,0 +1,225 @@
+#include "planner_svc/timeline_htn/cli/commands.hpp"
+
+#include <iomanip>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <ostream>
+#include <set>
+#include <sstream>
+
+#include "core/temporal/execution_windows.hpp"
+#include "planner_svc/timeline_htn/extraction/matrix.hpp"
+#include "planner_svc/timeline_htn/extraction/plan_of.hpp"
+#include "planner_svc/timeline_htn/reading/load.hpp"
+
+namespace roci::planner::timeline_htn::cli {
+
+using mission::Finding, mission::Findings, mission::Severity;
+using model::Model;
+using temporal::FlexiblePlan, temporal::PlanActivity;
+
+namespace {
+
+std::string counted(std::size_t count, const std::string& thing) {
+  return std::to_string(count) + " " + thing + (count == 1 ? "" : "s");
+}
+
+// The fault with its place, below it what to do.
+void tell(const Findings& findings, std::ostream& out) {
+  for (const Finding& finding : findings.sorted()) {
+    Finding place = finding;
+    place.what = (finding.severity == Severity::error ? "error: " : "warning: ") + finding.what;
+    out << place.text() << '\n';
+    if (!finding.remedy.empty()) out << "    " << finding.remedy << '\n';
+  }
+}
+
+nlohmann::ordered_json to_json(const Findings& findings) {
+  auto out = nlohmann::ordered_json::array();
+  for (const Finding& finding : findings.sorted())
+    out.push_back({{"file", finding.file},
+                   {"line", finding.line},
+                   {"column", finding.column},
+                   {"severity", finding.severity == Severity::error ? "error" : "warning"},
+                   {"what", finding.what},
+                   {"remedy", finding.remedy}});
+  return out;
+}
+
+std::string seconds(temporal::Duration time) {
+  if (!temporal::bounded(time)) return "-";
+  std::ostringstream out;
+  out << temporal::to_seconds(time);
+  return out.str();
+}
+
+std::optional<Model> load(const Files& files, const Output& output) {
+  Findings findings;
+  auto model = reading::load_model(files, findings);
+  tell(findings, output.errors);
+  if (model && !model->problem) {
+    output.errors << files.front().string()
+                  << ": there is no problem in it; name the file that has one, too\n";
+    return std::nullopt;
+  }
+  return model;
+}
+
+const char* word(search::Outcome outcome) {
+  switch (outcome) {
+    case search::Outcome::solved:
+      return "solved";
+    case search::Outcome::exhausted:
+      return "unsolvable";
+    case search::Outcome::out_of_memory:
+      return "out_of_memory";
+    case search::Outcome::cancelled:
+      return "cancelled";
+    case search::Outcome::searching:
+      return "timeout";
+  }
+  return "timeout";
+}
+
+// Plans, and tells why not where there is no plan.
+std::optional<FlexiblePlan> solve(search::Search& search, const PlanOptions& options, const Output& output) {
+  const search::Outcome outcome = search.run(options.work, options.memory_bytes, [] { return false; });
+  if (outcome == search::Outcome::solved)
+    return extraction::plan_of(search, {"plan", "a", temporal::Time{0}});
+  if (output.json) {
+    const nlohmann::ordered_json json = {{"verdict", word(outcome)}, {"reason", search.reason()}};
+    output.out << json.dump(2) << '\n';
+  } else {
+    output.errors << word(outcome) << ": " << search.reason() << '\n';
+  }
+  return std::nullopt;
+}
+
+std::size_t depth_of(const FlexiblePlan& plan, const PlanActivity& activity) {
+  std::size_t depth = 0;
+  for (const PlanActivity* one = &activity; !one->parent.empty(); ++depth)
+    one = &*std::ranges::find(plan.activities, one->parent, &PlanActivity::id);
+  return depth;
+}
+
+void print_tree(const FlexiblePlan& plan, const temporal::ExecutionWindows& windows,
+                const std::string& parent, std::ostream& out) {
+  std::vector<const PlanActivity*> children;
+  for (const PlanActivity& activity : plan.activities)
+    if (activity.parent == parent) children.push_back(&activity);
+  std::ranges::stable_sort(children, {},
+                           [&](const PlanActivity* one) { return windows.window(one->start_point).lower; });
+  for (const PlanActivity* one : children) {
+    const auto start = windows.window(one->start_point), end = windows.window(one->end_point);
+    out << std::string(2 * depth_of(plan, *one), ' ') << one->name << "  [" << seconds(start.lower) << ", "
+        << seconds(start.upper) << "] to [" << seconds(end.lower) << ", " << seconds(end.upper) << "]";
+    if (!one->owner.empty()) out << "  " << one->owner << "/" << one->command_name;
+    out << '\n';
+    print_tree(plan, windows, one->id, out);
+  }
+}
+
+nlohmann::ordered_json json_of(const FlexiblePlan& plan, const temporal::ExecutionWindows& windows) {
+  auto activities = nlohmann::ordered_json::array();
+  for (const PlanActivity& one : plan.activities) {
+    const auto start = windows.window(one.start_point), end = windows.window(one.end_point);
+    activities.push_back({{"id", one.id},
+                          {"name", one.name},
+                          {"level", one.level},
+                          {"parent", one.parent},
+                          {"owner", one.owner},
+                          {"command", one.command_name},
+                          {"start_s", {temporal::to_seconds(start.lower), temporal::to_seconds(start.upper)}},
+                          {"end_s", {temporal::to_seconds(end.lower), temporal::to_seconds(end.upper)}},
+                          {"goals", one.goals_served}});
+  }
+  auto decisions = nlohmann::ordered_json::array();
+  for (const auto& one : plan.decisions) {
+    auto choices = nlohmann::ordered_json::array();
+    for (const auto& choice : one.choices)
+      choices.push_back({{"name", choice.name}, {"activities", choice.activities}});
+    decisions.push_back({{"id", one.id}, {"choices", choices}, {"admissible", one.admissible}});
+  }
+  return {{"activities", activities}, {"decisions", decisions}};
+}
+
+}  // namespace
+
+ExitCode check(const Files& files, const Output& output) {
+  Findings findings;
+  const auto model = reading::load_model(files, findings);
+  const std::size_t errors = findings.errors(), warnings = findings.size() - errors;
+  if (output.json) {
+    const nlohmann::ordered_json json = {{"usable", model.has_value()},
+                                         {"errors", errors},
+                                         {"warnings", warnings},
+                                         {"findings", to_json(findings)}};
+    output.out << json.dump(2) << '\n';
+    return model ? done : faulty;
+  }
+  tell(findings, output.out);
+  if (!model) {
+    output.out << counted(errors, "error") << ", " << counted(warnings, "warning") << '\n';
+    return faulty;
+  }
+  output.out << "domain '" << model->name << "': " << counted(model->components.size(), "component") << ", "
+             << counted(model->behaviours.size(), "behaviour") << ", "
+             << counted(model->objects.size(), "object") << ", "
+             << (model->problem ? counted(model->problem->goals.size(), "goal") : "no problem")
+             << "; no error, " << counted(warnings, "warning") << '\n';
+  return done;
+}
+
+ExitCode plan(const Files& files, const PlanOptions& options, const Output& output) {
+  const auto model = load(files, output);
+  if (!model) return faulty;
+  search::Search search(*model, options.resolver);
+  const auto plan = solve(search, options, output);
+  if (!plan) return unsolved;
+  temporal::ExecutionWindows windows(plan->point_count, temporal::all_constraints(*plan),
+                                     temporal::Duration{0});
+  windows.settle();
+  const auto& count = search.count();
+  if (output.json) {
+    nlohmann::ordered_json json = {{"verdict", "solved"}};
+    json["statistics"] = {{"expanded", count.expanded},
+                          {"evaluated", count.evaluated},
+                          {"refused", count.refused},
+                          {"repeated", count.repeated},
+                          {"bytes", count.bytes}};
+    json.update(json_of(*plan, windows));
+    output.out << json.dump(2) << '\n';
+    return done;
+  }
+  print_tree(*plan, windows, "", output.out);
+  for (const auto& decision : plan->decisions) {
+    output.out << "decision " << decision.id << " before "
+               << seconds(windows.window(decision.decide_before).upper) << " s:";
+    for (const auto& choice : decision.choices) output.out << ' ' << choice.name;
+    for (const auto& value : decision.admissible) output.out << ' ' << value;
+    output.out << '\n';
+  }
+  output.errors << plan->activities.size() << " activities"
+                << ", " << counted(plan->tokens.size(), "value") << "; expanded " << count.expanded
+                << ", evaluated " << count.evaluated << ", refused " << count.refused << ", repeated "
+                << count.repeated << ", bytes " << count.bytes << '\n';
+  return done;
+}
+
+ExitCode matrix(const Files& files, const PlanOptions& options, const std::string& form,
+                const Output& output) {
+  const auto model = load(files, output);
+  if (!model) return faulty;
+  search::Search search(*model, options.resolver);
+  const auto plan = solve(search, options, output);
+  if (!plan) return unsolved;
+  const extraction::Matrix matrix = extraction::matrix_of(*plan);
+  if (form == "json") {
+    output.out << to_json(matrix) << '\n';
+  } else {
+    output.out << (form == "svg" ? to_svg(matrix, model->name) : to_text(matrix));
+  }
+  return done;
+}
+
+}  // namespace roci::planner::timeline_htn::cli

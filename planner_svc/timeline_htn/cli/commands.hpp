@@ -1,0 +1,42 @@
+// What roci-timelines does with a model, apart from its command line.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+#include "planner_svc/timeline_htn/search/search.hpp"
+
+namespace roci::planner::timeline_htn::cli {
+
+/// Are the exit codes (docs/exit-codes.md).
+enum ExitCode { done = 0, faulty = 1, wrong_use = 2, unsolved = 3 };
+
+/// Takes what people and what programs read.
+struct Output {
+  std::ostream& out;
+  std::ostream& errors;
+  bool json = false;
+};
+
+using Files = std::vector<std::filesystem::path>;
+
+struct PlanOptions {
+  search::Resolver resolver;
+  std::uint64_t work = 10'000'000;  ///< steps of the search
+  std::size_t memory_bytes = 1U << 30U;
+};
+
+/// Prints all that is wrong with a model, each fault with its place and remedy, or in one line what it holds.
+ExitCode check(const Files& files, const Output& output);
+
+/// Plans and prints the plan: every level as a tree, times, decisions; with `json` as one object.
+ExitCode plan(const Files& files, const PlanOptions& options, const Output& output);
+
+/// Plans and prints the matrix: `form` is text, json or svg.
+ExitCode matrix(const Files& files, const PlanOptions& options, const std::string& form,
+                const Output& output);
+
+}  // namespace roci::planner::timeline_htn::cli

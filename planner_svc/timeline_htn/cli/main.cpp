@@ -1,0 +1,60 @@
+// roci-timelines: roci-timelines check|plan|matrix FILE …
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <map>
+#include <string>
+
+#include "planner_svc/timeline_htn/cli/commands.hpp"
+
+namespace roci::planner::timeline_htn::cli {
+namespace {
+
+int run_command_line(int argc, char** argv) {
+  CLI::App app("Checks models of hierarchical timelines, and plans with them");
+  app.require_subcommand(1);
+  app.footer(
+      "How a model is written: docs/timeline-format.md. Exit codes: 0 done, 1 the model has errors, 2 wrong "
+      "use, 3 no "
+      "plan.");
+  Files files;
+  bool json = false;
+  PlanOptions options;
+  std::string form = "text";
+  const auto command = [&](const char* name, const char* help) {
+    CLI::App* out = app.add_subcommand(name, help);
+    out->add_option("FILE", files, "domain, behaviours and problem, in one file or several")->required();
+    return out;
+  };
+  const auto planning = [&](CLI::App* out) {
+    const std::map<std::string, search::Heuristic> heuristics{
+        {"blind", search::Heuristic::blind},
+        {"relaxed_plan", search::Heuristic::relaxed_plan},
+        {"landmarks", search::Heuristic::landmarks}};
+    out->add_option("--heuristic", options.resolver.heuristic, "blind, relaxed_plan or landmarks")
+        ->transform(CLI::CheckedTransformer(heuristics));
+    out->add_option("--work", options.work, "steps of the search, at most");
+  };
+  CLI::App* check_command = command("check", "Tells all that is wrong with it, with file, line and remedy");
+  check_command->add_flag("--json", json, "as one JSON object");
+  CLI::App* plan_command = command("plan", "Plans, and prints every level of the plan");
+  planning(plan_command);
+  plan_command->add_flag("--json", json, "as one JSON object");
+  CLI::App* matrix_command = command("matrix", "Plans, and prints the values of all timelines by transition");
+  planning(matrix_command);
+  matrix_command->add_option("--form", form, "text, json or svg")
+      ->check(CLI::IsMember({"text", "json", "svg"}));
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? done : wrong_use;
+  }
+  const Output output{std::cout, std::cerr, json};
+  if (*check_command) return check(files, output);
+  if (*plan_command) return plan(files, options, output);
+  return matrix(files, options, form, output);
+}
+
+}  // namespace
+}  // namespace roci::planner::timeline_htn::cli
+
+int main(int argc, char** argv) { return roci::planner::timeline_htn::cli::run_command_line(argc, argv); }

@@ -1,0 +1,569 @@
+#include "planner_svc/timeline_htn/search/partial_plan.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace roci::planner::timeline_htn::search {
+
+using model::Behaviour, model::GroundState, model::NeedKind, model::Pattern, model::Problem, model::StateKind,
+    model::Term;
+using temporal::no_bound;
+
+namespace {
+
+GroundState ground_of(const Pattern& pattern, const std::vector<Index>& objects) {
+  GroundState out{pattern.component, pattern.state, {}};
+  for (const Term& term : pattern.terms) out.objects.push_back(model::object_of(term, objects));
+  return out;
+}
+
+}  // namespace
+
+std::vector<Index> admissible(const Ground& ground, const Behaviour& behaviour, Index variable,
+                              std::vector<Index> objects) {
+  std::vector<Index> out;
+  objects[variable] = kNone;
+  for (const auto& bound : ground.bindings(behaviour.variables, std::move(objects), behaviour.where))
+    out.push_back(bound[variable]);
+  return out;
+}
+
+Index Bindings::number(const std::vector<Index>& objects) {
+  const auto [entry, added] = numbers_.emplace(objects, static_cast<Index>(all_.size()));
+  if (added) {
+    all_.push_back(objects);
+    bytes_ += 120 + 8 * objects.size();
+  }
+  return entry->second;
+}
+
+PartialPlan::PartialPlan(Ground& ground, Bindings& bindings, const std::vector<Index>& goal_order)
+    : ground_(&ground), bindings_(&bindings), network_(ground.model().problem->horizon) {
+  const Problem& problem = *ground.model().problem;
+  for (const auto& initial : problem.initial) {
+    current_.push_back(static_cast<Index>(tokens_.size()));
+    const StateId state = ground.find(ground_of(*initial, {}));
+    tokens_.push_back({state, temporal::origin_point, network_.add_point(), kNone, kNone});
+    static_cast<void>(constrain(0, tokens_.back().end, Duration{0}, ground.at(state).bounds.longest));
+  }
+  add_mending();
+  const auto mended = static_cast<Index>(activities_.size());
+  std::vector<Index> activity_of(problem.goals.size(), kNone);
+  for (Index i = 0; i < goal_order.size(); ++i) activity_of[goal_order[i]] = mended + i;
+  for (const Index index : goal_order) {
+    const model::Goal& goal = problem.goals[index];
+    const Index activity = add_activity(ground.find(ground_of(goal.state, {})), kNone);
+    if (activity == kNone) {
+      sound_ =
+          refuse({Obstacle::Kind::time, index, ground.find(ground_of(goal.state, {})), kNone, kNone, kNone});
+      return;
+    }
+    activities_[activity].goal = index;
+    activities_[activity].before_begin = static_cast<Index>(before_.size());
+    for (Index mending = 0; mending < mended; ++mending) before_.push_back(mending);
+    for (const Index after : goal.after) before_.push_back(activity_of[after]);
+    activities_[activity].before_end = static_cast<Index>(before_.size());
+    open_up(activity);
+  }
+  for (Index activity = mended; activity < activities_.size() && sound_; ++activity) {
+    const model::Goal& goal = problem.goals[activities_[activity].goal];
+    const TimePoint start = activities_[activity].start;
+    sound_ = constrain(0, start, goal.opens, goal.closes);
+    for (const Index earlier : before(activity))
+      sound_ = sound_ && constrain(activities_[earlier].end, start, Duration{0});
+    if (!sound_)
+      refuse({Obstacle::Kind::time, activities_[activity].goal, activities_[activity].state, kNone, kNone,
+              kNone});
+  }
+}
+
+// Behaviours that are triggered by where the timelines begin, or by a change of goals: one activity for each cause.
+void PartialPlan::add_mending() {
+  const model::Model& model = ground_->model();
+  const Problem& problem = *model.problem;
+  std::vector<std::vector<std::pair<Index, Index>>> causes(model.components.size() + 1);
+  for (Index b = 0; b < model.behaviours.size(); ++b) {
+    const Behaviour& behaviour = model.behaviours[b];
+    const auto add = [&](std::size_t cause, std::vector<Index> bound) {
+      for (const auto& objects : ground_->bindings(behaviour.variables, std::move(bound), behaviour.where))
+        causes[cause].emplace_back(b, bindings_->number(objects));
+    };
+    if (behaviour.on_goal_change && problem.goals_changed)
+      add(model.components.size(), std::vector<Index>(behaviour.variables.size(), kNone));
+    for (const Pattern& trigger : behaviour.triggers) {
+      const GroundState& begun = ground_->at(current_state(trigger.component)).state;
+      if (begun.state != trigger.state) continue;
+      std::vector<Index> bound(behaviour.variables.size(), kNone);
+      bool fits = true;
+      for (std::size_t i = 0; i < trigger.terms.size() && fits; ++i) {
+        const Term& term = trigger.terms[i];
+        Index expected = term.object ? term.index : bound[term.index];
+        if (expected == kNone) expected = bound[term.index] = begun.objects[i];
+        fits = expected == begun.objects[i];
+      }
+      if (fits) add(trigger.component, std::move(bound));
+    }
+  }
+  for (auto& ways : causes) {
+    if (ways.empty()) continue;
+    std::ranges::stable_sort(ways, [&](const auto& a, const auto& b) {
+      return model.behaviours[a.first].priority > model.behaviours[b.first].priority;
+    });
+    const Index activity = add_activity(kNone, kNone);
+    activities_[activity].placed = true;
+    activities_[activity].open_parts = 1;
+    mending_.push_back(std::move(ways));
+  }
+  for (Index activity = static_cast<Index>(activities_.size()); activity > 0; --activity)
+    push({UrgentKind::decompose, activity - 1, 0, kNone, 0, kNone});
+}
+
+PartialPlan::Mark PartialPlan::mark() const {
+  return {network_.mark(), tokens_.size(), activities_.size(),
+          urgents_.size(), before_.size(), changes_.size()};
+}
+
+void PartialPlan::take_back(const Mark& mark) {
+  while (changes_.size() > mark.changes) {
+    const Change change = changes_.back();
+    changes_.pop_back();
+    if (change.field == Field::opened) {
+      open_.pop_back();
+    } else if (change.field == Field::closed) {
+      open_.insert(open_.begin() + change.index, change.before);
+    } else if (change.field == Field::placed) {
+      activities_[change.index].placed = change.before != 0;
+      --placed_;
+    } else {
+      slot(change.field, change.index) = change.before;
+    }
+  }
+  network_.take_back(mark.network);
+  tokens_.resize(mark.tokens);
+  activities_.resize(mark.activities);
+  urgents_.resize(mark.urgent);
+  before_.resize(mark.before);
+}
+
+Index& PartialPlan::slot(Field field, Index index) {
+  switch (field) {
+    case Field::current:
+      return current_[index];
+    case Field::token:
+      return activities_[index].token;
+    case Field::behaviour:
+      return activities_[index].behaviour;
+    case Field::binding:
+      return activities_[index].binding;
+    case Field::parts:
+      return activities_[index].open_parts;
+    case Field::path:
+      return activities_[index].path_from;
+    default:
+      return urgent_;
+  }
+}
+
+void PartialPlan::set(Field field, Index index, Index value) {
+  Index& place = slot(field, index);
+  changes_.push_back({field, index, place});
+  place = value;
+}
+
+bool PartialPlan::constrain(TimePoint from, TimePoint to, Duration lower, Duration upper) {
+  if (network_.add(from, to, lower, upper)) return true;
+  ++refusals_by_time_;
+  return false;
+}
+
+Index PartialPlan::add_activity(StateId state, Index parent, const model::Bounds* bounds) {
+  Activity activity;
+  activity.state = state;
+  activity.parent = parent;
+  activity.start = network_.add_point();
+  activity.end = network_.add_point();
+  if (state != kNone && ground_->at(state).kind == StateKind::simple)
+    activity.bounds = ground_->at(state).bounds;
+  if (bounds != nullptr) activity.bounds = *bounds;
+  activities_.push_back(activity);
+  const bool lasts =
+      constrain(activity.start, activity.end, activity.bounds.shortest, activity.bounds.longest);
+  return lasts ? static_cast<Index>(activities_.size() - 1) : kNone;
+}
+
+void PartialPlan::push(Urgent item) {
+  item.below = urgent_;
+  urgents_.push_back(item);
+  set(Field::urgent, 0, static_cast<Index>(urgents_.size() - 1));
+}
+
+void PartialPlan::pop() { set(Field::urgent, 0, urgents_[urgent_].below); }
+
+void PartialPlan::open_up(Index activity) {
+  open_.push_back(activity);
+  changes_.push_back({Field::opened, 0, 0});
+}
+
+// Takes the activity off the open ones.
+void PartialPlan::place(Index activity) {
+  const auto found = std::ranges::find(open_, activity);
+  changes_.push_back({Field::closed, static_cast<Index>(found - open_.begin()), activity});
+  open_.erase(found);
+  changes_.push_back({Field::placed, activity, 0});
+  activities_[activity].placed = true;
+  ++placed_;
+}
+
+// The activity is complete: so may be those above it.
+void PartialPlan::finish(Index activity) {
+  for (Index parent = activities_[activity].parent; parent != kNone; parent = activities_[parent].parent) {
+    set(Field::parts, parent, activities_[parent].open_parts - 1);
+    if (activities_[parent].open_parts > 0) return;
+  }
+}
+
+std::vector<Index> PartialPlan::before(Index activity) const {
+  return {before_.begin() + activities_[activity].before_begin,
+          before_.begin() + activities_[activity].before_end};
+}
+
+bool PartialPlan::ready(Index activity) const {
+  const Activity& one = activities_[activity];
+  for (Index i = one.before_begin; i < one.before_end; ++i)
+    if (!complete(before_[i])) return false;
+  if (one.nested) return true;
+  const Index running = tokens_[current_[component(activity)]].activity;
+  return running == kNone || complete(running);
+}
+
+bool PartialPlan::passed(Index component, StateId state, Index path_from) const {
+  for (Index token = current_[component]; token != kNone && token >= path_from; token = tokens_[token].before)
+    if (tokens_[token].state == state) return true;
+  return false;
+}
+
+std::vector<Index> PartialPlan::need_variables(Index token) const {
+  std::vector<Index> out = ground_->at(tokens_[token].state).state.objects;
+  out.resize(out.size() + ground_->definition(tokens_[token].state).free.size(), kNone);
+  return out;
+}
+
+Index PartialPlan::goal_of(Index activity) const {
+  while (activity != kNone && activities_[activity].parent != kNone) activity = activities_[activity].parent;
+  return activity == kNone ? kNone : activities_[activity].goal;
+}
+
+bool PartialPlan::refuse(Obstacle obstacle) {
+  if (obstacle_.kind == Obstacle::Kind::none || placed_ + 1 > farthest_) {
+    obstacle_ = obstacle;
+    farthest_ = placed_ + 1;
+  }
+  return false;
+}
+
+// Appends a value to its timeline, and its needs to what is urgent. Returns kNone where time does not permit it.
+Index PartialPlan::append(StateId state, Index activity) {
+  const Instance& instance = ground_->at(state);
+  const Index component = instance.state.component;
+  const auto token = static_cast<Index>(tokens_.size());
+  const TimePoint start = tokens_[current_[component]].end;
+  tokens_.push_back({state, start, network_.add_point(), activity, current_[component]});
+  set(Field::current, component, token);
+  const model::Bounds& bounds = activity == kNone ? instance.bounds : activities_[activity].bounds;
+  if (!constrain(start, tokens_.back().end, bounds.shortest, bounds.longest)) return kNone;
+  for (std::size_t need = ground_->definition(state).needs.size(); need > 0; --need)
+    push({UrgentKind::need, token, static_cast<Index>(need - 1), kNone, 0, kNone});
+  return token;
+}
+
+// Appends a state that stands between two others.
+bool PartialPlan::step_between(StateId state, Index parent, Index goal, bool complex_permitted) {
+  const StateKind kind = ground_->at(state).kind;
+  if (kind == StateKind::resting) return append(state, kNone) != kNone;
+  if (kind == StateKind::complex && !complex_permitted) return false;
+  const Index activity = add_activity(state, parent);
+  if (activity == kNone) return false;
+  activities_[activity].placed = true;
+  activities_[activity].goal = goal;
+  const Index token = append(state, activity);
+  if (token == kNone) return false;
+  activities_[activity].token = token;
+  if (!constrain(tokens_[token].start, activities_[activity].start, Duration{0}, Duration{0}) ||
+      !constrain(tokens_[token].end, activities_[activity].end, Duration{0}, Duration{0}))
+    return false;
+  if (kind != StateKind::complex) return true;
+  activities_[activity].open_parts = 1;
+  if (parent != kNone) set(Field::parts, parent, activities_[parent].open_parts + 1);
+  push({UrgentKind::decompose, activity, 0, kNone, 0, kNone});
+  return true;
+}
+
+// The state that the activity wants holds already, or the activity lies within one of its own timeline.
+bool PartialPlan::attach(Index activity) {
+  const Token& token = tokens_[current_[component(activity)]];
+  if (!constrain(token.start, activities_[activity].start, Duration{0}) ||
+      !constrain(activities_[activity].end, token.end, Duration{0}))
+    return false;
+  set(Field::token, activity, current_[component(activity)]);
+  place(activity);
+  finish(activity);
+  return true;
+}
+
+// The next state on the way to the one that the activity wants, which may be that itself.
+bool PartialPlan::go_on(Index activity, StateId state) {
+  const Activity wanted = activities_[activity];
+  const Index from = wanted.path_from == kNone ? static_cast<Index>(tokens_.size()) : wanted.path_from;
+  if (state != wanted.state) {
+    if (wanted.path_from == kNone) set(Field::path, activity, from);
+    return step_between(state, wanted.parent, wanted.goal, true);
+  }
+  if (ground_->at(state).kind == StateKind::resting) return append(state, kNone) != kNone && attach(activity);
+  const Index token = append(state, activity);
+  if (token == kNone || !constrain(tokens_[token].start, wanted.start, Duration{0}, Duration{0}) ||
+      !constrain(tokens_[token].end, wanted.end, Duration{0}, Duration{0}))
+    return false;
+  set(Field::token, activity, token);
+  place(activity);
+  if (ground_->at(state).kind == StateKind::complex) {
+    set(Field::parts, activity, 1);
+    push({UrgentKind::decompose, activity, 0, kNone, 0, kNone});
+  } else {
+    finish(activity);
+  }
+  return true;
+}
+
+// Lets the timeline go on by itself, through states without a command, until the condition holds.
+bool PartialPlan::follow(Index component, const Pattern& pattern, const std::vector<Index>& objects,
+                         Index activity) {
+  constexpr std::size_t kMostSteps = 3;
+  std::vector<StateId> path;
+  StateId state = current_state(component);
+  if (ground_->at(state).kind != StateKind::simple) return false;
+  while (!ground_->fits(state, pattern, objects)) {
+    if (path.size() == kMostSteps) return false;
+    StateId chosen = kNone;
+    for (const StateId after : ground_->next(state)) {
+      const bool by_itself =
+          !ground_->definition(after).command && ground_->at(after).kind != StateKind::complex;
+      if (by_itself && (chosen == kNone || ground_->fits(after, pattern, objects))) {
+        chosen = after;
+        if (ground_->fits(after, pattern, objects)) break;
+      }
+    }
+    if (chosen == kNone) return false;
+    path.push_back(state = chosen);
+  }
+  return std::ranges::all_of(path, [&](StateId one) {
+    return step_between(one, activities_[activity].parent, activities_[activity].goal, false);
+  });
+}
+
+bool PartialPlan::conditions_hold(Index activity, const Behaviour& behaviour,
+                                  const std::vector<Index>& objects) {
+  for (Index i = 0; i < behaviour.conditions.size(); ++i) {
+    const model::Precondition& condition = behaviour.conditions[i];
+    const Index component = condition.state.component;
+    const Index own = activities_[activity].token;
+    const bool before_itself = own != kNone && ground_->at(tokens_[own].state).state.component == component;
+    const Index looked_at = before_itself ? tokens_[own].before : current_[component];
+    bool holds = ground_->fits(tokens_[looked_at].state, condition.state, objects) != condition.negated;
+    if (!holds && !condition.negated && !before_itself)
+      holds = follow(component, condition.state, objects, activity);
+    if (!holds)
+      return refuse({Obstacle::Kind::condition, goal_of(activity), activities_[activity].state,
+                     static_cast<Index>(&behaviour - ground_->model().behaviours.data()), i,
+                     tokens_[looked_at].state});
+    if (before_itself) continue;
+    const Token& token = tokens_[current_[component]];
+    if (!constrain(token.start, activities_[activity].start, Duration{0}) ||
+        !constrain(activities_[activity].start, token.end, Duration{0}))
+      return false;
+  }
+  return true;
+}
+
+bool PartialPlan::decompose(Index activity, Index behaviour_index, Index binding) {
+  const Behaviour& behaviour = ground_->model().behaviours[behaviour_index];
+  const std::vector<Index>& objects = bindings_->at(binding);
+  pop();
+  set(Field::behaviour, activity, behaviour_index);
+  set(Field::binding, activity, binding);
+  if (!conditions_hold(activity, behaviour, objects)) return false;
+  const auto first = static_cast<Index>(activities_.size());
+  if (!add_parts(activity, behaviour, objects)) return false;
+  if (!add_part_constraints(activity, behaviour, objects, first))
+    return refuse({Obstacle::Kind::time, goal_of(activity), activities_[activity].state, behaviour_index,
+                   kNone, kNone});
+  return true;
+}
+
+// Bounds within which the state lasts whichever object the open variable stands for.
+void PartialPlan::widen(model::Bounds& bounds, const Behaviour& behaviour, Index variable,
+                        const Pattern& pattern, const std::vector<Index>& objects) {
+  if (std::ranges::find(pattern.terms, Term{variable, false}) == pattern.terms.end()) return;
+  for (const Index object : admissible(*ground_, behaviour, variable, objects)) {
+    std::vector<Index> bound = objects;
+    bound[variable] = object;
+    const StateId state = ground_->find(ground_of(pattern, bound));
+    if (state == kNone) continue;
+    bounds.shortest = std::min(bounds.shortest, ground_->at(state).bounds.shortest);
+    bounds.longest = std::max(bounds.longest, ground_->at(state).bounds.longest);
+  }
+}
+
+bool PartialPlan::add_parts(Index activity, const Behaviour& behaviour, const std::vector<Index>& objects) {
+  std::vector<bool> beside(behaviour.subgoals.size(), false);
+  for (const model::Decision& decision : behaviour.decisions)
+    for (std::size_t choice = 1; choice < decision.choices.size(); ++choice)
+      for (const Index subgoal : decision.choices[choice].subgoals) beside[subgoal] = true;
+  const auto own = static_cast<Index>(&behaviour - ground_->model().behaviours.data());
+  Index parts = 0;
+  for (Index i = 0; i < behaviour.subgoals.size(); ++i) {
+    const Pattern& pattern = behaviour.subgoals[i].state;
+    const StateId state = ground_->find(ground_of(pattern, objects));
+    if (state == kNone)
+      return refuse(
+          {Obstacle::Kind::no_state, goal_of(activity), activities_[activity].state, own, i, kNone});
+    const bool complex = ground_->at(state).kind == StateKind::complex;
+    bool nested = false;
+    for (Index above = activity; above != kNone; above = activities_[above].parent) {
+      if (activities_[above].state == kNone) continue;
+      if (complex && activities_[above].state == state)
+        return refuse({Obstacle::Kind::recursion, goal_of(activity), state, own, i, kNone});
+      nested = nested || ground_->at(activities_[above].state).state.component == pattern.component;
+    }
+    if (nested && !complex)
+      return refuse(
+          {Obstacle::Kind::no_state, goal_of(activity), activities_[activity].state, own, i, kNone});
+    model::Bounds bounds = ground_->at(state).bounds;
+    for (const model::Decision& decision : behaviour.decisions)
+      if (decision.variable) widen(bounds, behaviour, *decision.variable, pattern, objects);
+    const Index part =
+        add_activity(state, activity, ground_->at(state).kind == StateKind::simple ? &bounds : nullptr);
+    if (part == kNone) return false;
+    activities_[part].subgoal = i;
+    activities_[part].nested = nested;
+    activities_[part].beside = beside[i];
+    if (!constrain(activities_[activity].start, activities_[part].start, Duration{0}) ||
+        !constrain(activities_[part].end, activities_[activity].end, Duration{0}))
+      return false;
+    if (beside[i]) {
+      activities_[part].placed = true;
+    } else {
+      open_up(part);
+      ++parts;
+    }
+  }
+  set(Field::parts, activity, activities_[activity].open_parts - 1 + parts);
+  if (activities_[activity].open_parts == 0) finish(activity);
+  return true;
+}
+
+bool PartialPlan::add_part_constraints(Index activity, const Behaviour& behaviour,
+                                       const std::vector<Index>& objects, Index first) {
+  const auto point = [&](const model::Point& one) {
+    const Activity& owner = activities_[one.subgoal ? first + *one.subgoal : activity];
+    return one.end ? owner.end : owner.start;
+  };
+  std::vector<std::vector<Index>> before(behaviour.subgoals.size());
+  for (const model::SubgoalConstraint& constraint : behaviour.constraints) {
+    const auto number = [&](const model::Expression& expression,
+                            Duration otherwise) -> std::optional<Duration> {
+      if (expression.empty()) return otherwise;
+      const auto value = model::evaluate(ground_->model(), expression, objects);
+      if (!value || std::abs(*value) > 1e9) return std::nullopt;
+      return temporal::seconds(*value);
+    };
+    const auto lower = number(constraint.lower, -no_bound), upper = number(constraint.upper, no_bound);
+    if (!lower || !upper || !constrain(point(constraint.from), point(constraint.to), *lower, *upper))
+      return false;
+    const bool ordered = constraint.from.subgoal && constraint.to.subgoal && constraint.from.end &&
+                         !constraint.to.end && *lower >= Duration{0};
+    if (ordered && !activities_[first + *constraint.from.subgoal].beside)
+      before[*constraint.to.subgoal].push_back(first + *constraint.from.subgoal);
+  }
+  for (Index i = 0; i < before.size(); ++i) {
+    activities_[first + i].before_begin = static_cast<Index>(before_.size());
+    before_.insert(before_.end(), before[i].begin(), before[i].end());
+    activities_[first + i].before_end = static_cast<Index>(before_.size());
+  }
+  return true;
+}
+
+bool PartialPlan::meet_need(Index needing, Index need, Index other) {
+  const Token& one = tokens_[needing];
+  const Token& met = tokens_[other];
+  switch (ground_->definition(one.state).needs[need].kind) {
+    case NeedKind::during:
+      return constrain(met.start, one.start, Duration{0}) && constrain(one.end, met.end, Duration{0});
+    case NeedKind::at_start:
+      return constrain(met.start, one.start, Duration{0}) && constrain(one.start, met.end, Duration{0});
+    case NeedKind::met_by:
+      return constrain(met.end, one.start, Duration{0}, Duration{0});
+  }
+  return false;
+}
+
+bool PartialPlan::path_to_need(StateId state) {
+  const Urgent item = urgents_[urgent_];
+  pop();
+  const Index owner = tokens_[item.subject].activity;
+  const Index parent = owner == kNone ? kNone : activities_[owner].parent;
+  const Index goal = owner == kNone ? kNone : activities_[owner].goal;
+  const Index component = ground_->at(state).state.component;
+  if (state != item.goal) push(item);
+  if (!step_between(state, parent, goal, false)) return false;
+  return state != item.goal || meet_need(item.subject, item.need, current_[component]);
+}
+
+bool PartialPlan::take(const Step& step) {
+  switch (step.kind) {
+    case StepKind::attach:
+      if (attach(step.subject)) return true;
+      break;
+    case StepKind::append:
+      if (go_on(step.subject, step.first)) return true;
+      break;
+    case StepKind::nest:
+      place(step.subject);
+      set(Field::parts, step.subject, 1);
+      push({UrgentKind::decompose, step.subject, 0, kNone, 0, kNone});
+      return true;
+    case StepKind::decompose:
+      return decompose(step.subject, step.first, step.second);
+    case StepKind::need_here:
+      pop();
+      if (meet_need(step.subject, step.second, step.first)) return true;
+      break;
+    case StepKind::need_path: {
+      pop();
+      push({UrgentKind::path_to_need, step.subject, step.second, step.first,
+            static_cast<Index>(tokens_.size()), kNone});
+      return true;
+    }
+    case StepKind::path_to_need:
+      if (path_to_need(step.first)) return true;
+      break;
+    case StepKind::rest:
+      return step_between(step.first, kNone, kNone, false);
+  }
+  const bool activity = step.kind == StepKind::attach || step.kind == StepKind::append;
+  return refuse({Obstacle::Kind::time, activity ? goal_of(step.subject) : kNone,
+                 activity ? activities_[step.subject].state : kNone, kNone, kNone, kNone});
+}
+
+bool PartialPlan::close() {
+  const Duration horizon = ground_->model().problem->horizon;
+  return std::ranges::all_of(current_,
+                             [&](Index token) { return constrain(0, tokens_[token].end, horizon, horizon); });
+}
+
+std::size_t PartialPlan::bytes() const {
+  return network_.bytes() + tokens_.capacity() * sizeof(Token) + activities_.capacity() * sizeof(Activity) +
+         urgents_.capacity() * sizeof(Urgent) + (before_.capacity() + open_.capacity()) * sizeof(Index) +
+         changes_.capacity() * sizeof(Change);
+}
+
+}  // namespace roci::planner::timeline_htn::search

@@ -1,0 +1,246 @@
+#include "planner_svc/timeline_htn/search/search.hpp"
+
+#include <algorithm>
+
+namespace roci::planner::timeline_htn::search {
+
+using model::Model, model::Problem;
+
+namespace {
+
+constexpr std::uint64_t kPollEach = 64;
+
+constexpr int kPassWithDetours = 1;
+constexpr int kPassThatDropsNothing = 2;
+
+std::uint64_t mix(std::uint64_t x) {
+  x ^= x >> 30U;
+  x *= 0xbf58476d1ce4e5b9ULL;
+  x ^= x >> 27U;
+  x *= 0x94d049bb133111ebULL;
+  return x ^ (x >> 31U);
+}
+std::uint64_t join(std::uint64_t a, std::uint64_t b) { return mix(a * 0x9e3779b97f4a7c15ULL + b + 1); }
+
+}  // namespace
+
+std::vector<Index> goal_order(const Problem& problem) {
+  std::vector<Index> left(problem.goals.size()), out;
+  for (Index i = 0; i < left.size(); ++i) left[i] = i;
+  std::ranges::stable_sort(
+      left, {}, [&](Index i) { return std::pair(problem.goals[i].closes, problem.goals[i].opens); });
+  while (!left.empty()) {
+    const auto next = std::ranges::find_if(left, [&](Index i) {
+      return std::ranges::all_of(problem.goals[i].after,
+                                 [&](Index before) { return std::ranges::find(out, before) != out.end(); });
+    });
+    const auto taken = next == left.end() ? left.begin() : next;
+    out.push_back(*taken);
+    left.erase(taken);
+  }
+  return out;
+}
+
+Search::Search(const Model& model, const Resolver& resolver)
+    : ground_(model),
+      successors_(ground_, bindings_, resolver.order),
+      goals_(goal_order(*model.problem)),
+      estimate_(make_estimate(resolver.heuristic, ground_, successors_)) {
+  start();
+}
+
+void Search::start() {
+  plan_ = std::make_unique<PartialPlan>(ground_, bindings_, goals_);
+  nodes_.assign(1, {kNone, 0, {}});
+  path_.assign(1, 0);
+  marks_.assign(1, plan_->mark());
+  seen_.clear();
+  open_.clear();
+  open_[0].push_back(0);
+  if (plan_->sound()) return;
+  state_ = Outcome::exhausted;
+  note(plan_->obstacle());
+}
+
+// Brings the plan to a node: back to where the two ways part, then forward. Returns false where its last step leads nowhere.
+bool Search::go_to(Index node) {
+  std::vector<Index> way;
+  Index common = node;
+  while (nodes_[common].depth >= path_.size() || path_[nodes_[common].depth] != common) {
+    way.push_back(common);
+    common = nodes_[common].parent;
+  }
+  const std::size_t depth = nodes_[common].depth;
+  if (depth + 1 < path_.size()) {
+    plan_->take_back(marks_[depth + 1]);
+    path_.resize(depth + 1);
+    marks_.resize(depth + 1);
+  }
+  for (auto one = way.rbegin(); one != way.rend(); ++one) {
+    const PartialPlan::Mark mark = plan_->mark();
+    if (!plan_->take(nodes_[*one].step)) {
+      plan_->take_back(mark);
+      return false;
+    }
+    path_.push_back(*one);
+    marks_.push_back(mark);
+  }
+  return true;
+}
+
+// What is left to do and where the timelines stand, without times.
+std::uint64_t Search::signature() const {
+  const PartialPlan& plan = *plan_;
+  std::uint64_t out = 1;
+  for (Index c = 0; c < ground_.model().components.size(); ++c) {
+    const Token& token = plan.tokens()[plan.current(c)];
+    const bool running = token.activity != kNone && !plan.complete(token.activity);
+    out = join(out, std::uint64_t{token.state} * 2 + (running ? 1 : 0));
+  }
+  std::uint64_t open = 0;
+  for (const Index index : plan.open()) {
+    const Activity& activity = plan.activities()[index];
+    std::uint64_t one = join(activity.state, activity.goal);
+    if (activity.parent != kNone) {
+      const Activity& parent = plan.activities()[activity.parent];
+      one = join(join(one, parent.state), join(parent.behaviour, join(parent.binding, activity.subgoal)));
+    }
+    for (const Index before : plan.before(index)) one = join(one, plan.complete(before) ? 1 : 2);
+    if (activity.path_from != kNone) one = join(one, plan.tokens().size() - activity.path_from);
+    open += mix(one);
+  }
+  out = join(out, open);
+  for (const Urgent* item = plan.urgent(); item != nullptr; item = plan.below(*item)) {
+    out = join(out, join(static_cast<std::uint64_t>(item->kind), join(item->need, item->goal)));
+    const StateId subject = item->kind == UrgentKind::decompose ? plan.activities()[item->subject].state
+                                                                : plan.tokens()[item->subject].state;
+    out = join(out, subject);
+  }
+  return out;
+}
+
+// Starts again with what the pass before has left out; false: it has left out nothing.
+bool Search::next_pass() {
+  if (pass_ < kPassWithDetours && successors_.left_out()) {
+    pass_ = kPassWithDetours;
+  } else if (pass_ < kPassThatDropsNothing && count_.repeated > 0 && plan_->refusals_by_time() > 0) {
+    pass_ = kPassThatDropsNothing;
+  } else {
+    return false;
+  }
+  successors_.permit_detours();
+  start();
+  return state_ == Outcome::searching;
+}
+
+void Search::note(const Obstacle& obstacle) {
+  if (obstacle.kind == Obstacle::Kind::none) return;
+  const std::size_t depth = path_.size();
+  if (obstacle_.kind != Obstacle::Kind::none && depth <= farthest_) return;
+  farthest_ = depth;
+  obstacle_ = obstacle;
+}
+
+void Search::expand(Index node) {
+  ++count_.expanded;
+  const std::uint32_t estimate = estimate_->of(*plan_);
+  if (estimate == kNone) return;
+  successors_.of(*plan_, steps_);
+  if (steps_.empty()) note(successors_.obstacle());
+  const Index depth = nodes_[node].depth + 1;
+  auto& bucket = open_[estimate];
+  for (auto step = steps_.rbegin(); step != steps_.rend(); ++step) {
+    bucket.push_back(static_cast<Index>(nodes_.size()));
+    nodes_.push_back({node, depth, *step});
+  }
+}
+
+Outcome Search::run(std::uint64_t evaluations, std::size_t memory_bytes,
+                    const std::function<bool()>& cancelled) {
+  while (state_ == Outcome::searching && count_.evaluated < evaluations) {
+    if (count_.evaluated % kPollEach == 0) {
+      count_.bytes = bytes();
+      if (cancelled()) return Outcome::cancelled;
+      if (memory_bytes != 0 && count_.bytes > memory_bytes) return state_ = Outcome::out_of_memory;
+    }
+    while (!open_.empty() && open_.begin()->second.empty()) open_.erase(open_.begin());
+    if (open_.empty()) {
+      if (!next_pass()) return state_ = Outcome::exhausted;
+      continue;
+    }
+    const Index node = open_.begin()->second.back();
+    open_.begin()->second.pop_back();
+    ++count_.evaluated;
+    if (!go_to(node)) {
+      ++count_.refused;
+      note(plan_->obstacle());
+      continue;
+    }
+    if (pass_ < kPassThatDropsNothing && !seen_.insert(signature()).second) {
+      ++count_.repeated;
+      continue;
+    }
+    if (Successors::whole(*plan_, ground_)) {
+      const PartialPlan::Mark mark = plan_->mark();
+      if (plan_->close()) {
+        state_ = Outcome::solved;
+        break;
+      }
+      plan_->take_back(mark);
+      continue;
+    }
+    expand(node);
+  }
+  count_.nodes = nodes_.size();
+  count_.bytes = bytes();
+  return state_;
+}
+
+std::size_t Search::bytes() const {
+  return nodes_.capacity() * sizeof(Node) + seen_.size() * 40 + plan_->bytes() + ground_.bytes() +
+         bindings_.bytes() + marks_.capacity() * sizeof(PartialPlan::Mark);
+}
+
+Index Search::blocking_goal() const { return obstacle_.goal; }
+
+std::string Search::reason() const {
+  const Model& model = ground_.model();
+  const Obstacle& one = obstacle_;
+  const auto wanted = [&] { return one.state == kNone ? std::string("the plan") : ground_.text(one.state); };
+  const auto behaviour = [&] { return "behaviour '" + model.behaviours[one.behaviour].name + "'"; };
+  switch (one.kind) {
+    case Obstacle::Kind::none:
+      return "no plan was found";
+    case Obstacle::Kind::time:
+      return "time does not permit " + wanted() + (one.behaviour == kNone ? "" : " by " + behaviour()) +
+             ": its window, the constraints round it or the horizon are too narrow";
+    case Obstacle::Kind::condition: {
+      const auto& condition = model.behaviours[one.behaviour].conditions[one.condition];
+      return behaviour() + " for " + wanted() + " asks for " + (condition.negated ? "not " : "") +
+             to_text(model, condition.state, model.behaviours[one.behaviour].variables) +
+             ", and the timeline is in " + ground_.text(one.at);
+    }
+    case Obstacle::Kind::no_behaviour:
+      return "no behaviour achieves " + wanted() + " with these objects";
+    case Obstacle::Kind::no_path:
+      return one.state == kNone ? "nothing leads from " + ground_.text(one.at) + " to a state to rest in"
+                                : "no transitions lead from " + ground_.text(one.at) + " to " + wanted();
+    case Obstacle::Kind::no_state:
+      return behaviour() + " for " + wanted() + " has a subgoal, '" +
+             model.behaviours[one.behaviour].subgoals[one.condition].name +
+             "', that does not exist with these objects, or stands on a timeline that is taken by what it "
+             "belongs to";
+    case Obstacle::Kind::recursion:
+      return behaviour() + " leads back to " + wanted();
+    case Obstacle::Kind::need: {
+      const auto& state = ground_.definition(one.state);
+      std::vector<model::Variable> scope = state.parameters;
+      scope.insert(scope.end(), state.free.begin(), state.free.end());
+      return wanted() + " needs " + to_text(model, state.needs[one.condition].state, scope) +
+             ", and the timeline, in " + ground_.text(one.at) + ", cannot come there";
+    }
+  }
+  return "no plan was found";
+}
+
+}  // namespace roci::planner::timeline_htn::search

@@ -1,0 +1,112 @@
+// The search of the hierarchical timeline engine: forward in time from the initial state (R133), hierarchy built and kept (R130).
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <unordered_set>
+#include <vector>
+
+#include "planner_svc/timeline_htn/search/partial_plan.hpp"
+#include "planner_svc/timeline_htn/search/successors.hpp"
+
+namespace roci::planner::timeline_htn::search {
+
+enum class Heuristic { blind, relaxed_plan, landmarks };
+
+/// Is one way to search: they differ in what they try first.
+struct Resolver {
+  Heuristic heuristic = Heuristic::blind;
+  Order order = Order::first_declared;
+  friend bool operator==(const Resolver&, const Resolver&) = default;
+};
+
+enum class Outcome {
+  searching,
+  solved,
+  exhausted,  ///< proved: there is no plan
+  out_of_memory,
+  cancelled,
+};
+
+struct Count {
+  std::uint64_t expanded = 0;   ///< plans of which the steps were looked at
+  std::uint64_t evaluated = 0;  ///< steps that were tried
+  std::uint64_t refused = 0;    ///< of these: that led nowhere
+  std::uint64_t repeated = 0;   ///< of these: to where the search had been
+  std::size_t nodes = 0;        ///< that are kept
+  std::size_t bytes = 0;        ///< of nodes, plan and ground states
+};
+
+/// Estimates how much is left to do.
+class Estimate {
+ public:
+  virtual ~Estimate() = default;
+  virtual std::uint32_t of(const PartialPlan& plan) = 0;
+};
+std::unique_ptr<Estimate> make_estimate(Heuristic heuristic, Ground& ground, const Successors& successors);
+
+/// Returns the goals in the order in which they are tried: what comes first by `after`, then what closes or opens first, then the first
+/// in the problem.
+std::vector<Index> goal_order(const model::Problem& problem);
+
+/// Is a greedy best-first search with deferred evaluation; blind it is depth-first. It is resumable, and the same model, resolver and
+/// budgets give the same steps.
+///
+/// It searches in up to three passes, each of which finds more and takes longer. The first goes straight from state to state of a timeline, and
+/// drops a plan whose timelines and open activities are those of one that was seen, whatever its times. The second takes detours. Where
+/// time has refused a step, what was dropped may be missed, so the third drops nothing. So it is complete, as far as the ancestors of a
+/// complex state do not hold that state again.
+class Search {
+ public:
+  Search(const model::Model& model, const Resolver& resolver);
+
+  /// Goes on until it is solved or exhausted, or so many steps were tried in all.
+  Outcome run(std::uint64_t evaluations, std::size_t memory_bytes, const std::function<bool()>& cancelled);
+  Outcome state() const { return state_; }
+  const Count& count() const { return count_; }
+  /// With solved: the plan that was found.
+  const PartialPlan& plan() const { return *plan_; }
+  const Ground& ground() const { return ground_; }
+  const Bindings& bindings() const { return bindings_; }
+  /// With exhausted: what the search that came farthest met, in words.
+  std::string reason() const;
+  /// The goal for which it says so; kNone: none in particular.
+  Index blocking_goal() const;
+
+ private:
+  struct Node {
+    Index parent;
+    Index depth;
+    Step step;
+  };
+  void start();
+  bool next_pass();
+  bool go_to(Index node);
+  void expand(Index node);
+  std::uint64_t signature() const;
+  void note(const Obstacle& obstacle);
+  std::size_t bytes() const;
+
+  Ground ground_;
+  Bindings bindings_;
+  Successors successors_;
+  std::vector<Index> goals_;
+  std::unique_ptr<Estimate> estimate_;
+  std::unique_ptr<PartialPlan> plan_;
+  std::vector<Node> nodes_;
+  std::map<std::uint32_t, std::vector<Index>> open_;
+  std::unordered_set<std::uint64_t> seen_;
+  std::vector<Index> path_;  // nodes from the root to where the plan is
+  std::vector<PartialPlan::Mark> marks_;
+  std::vector<Step> steps_;
+  Obstacle obstacle_;
+  std::size_t farthest_ = 0;
+  int pass_ = 0;
+  Outcome state_ = Outcome::searching;
+  Count count_;
+};
+
+}  // namespace roci::planner::timeline_htn::search

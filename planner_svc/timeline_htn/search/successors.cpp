@@ -1,0 +1,215 @@
+#include "planner_svc/timeline_htn/search/successors.hpp"
+
+#include <algorithm>
+
+namespace roci::planner::timeline_htn::search {
+
+using model::StateKind, model::Term;
+
+namespace {
+
+constexpr int kTokensLookedBack = 4;
+
+}  // namespace
+
+Successors::Successors(Ground& ground, Bindings& bindings, Order order)
+    : ground_(&ground), bindings_(&bindings), order_(order) {
+  const auto& behaviours = ground.model().behaviours;
+  for (Index b = 0; b < behaviours.size(); ++b)
+    if (behaviours[b].achieves)
+      behaviours_[{behaviours[b].achieves->component, behaviours[b].achieves->state}].push_back(b);
+  for (auto& [state, list] : behaviours_)
+    std::ranges::stable_sort(list, std::greater{}, [&](Index b) { return behaviours[b].priority; });
+}
+
+const std::vector<Index>& Successors::behaviours(Index component, Index state) const {
+  static const std::vector<Index> none;
+  const auto found = behaviours_.find({component, state});
+  return found == behaviours_.end() ? none : found->second;
+}
+
+std::vector<std::vector<Index>> Successors::ways(Index index, StateId state) const {
+  const model::Behaviour& behaviour = ground_->model().behaviours[index];
+  const auto& objects = ground_->at(state).state.objects;
+  std::vector<Index> bound(behaviour.variables.size(), kNone);
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    const Term& term = behaviour.achieves->terms[i];
+    const Index expected = term.object ? term.index : bound[term.index];
+    if (expected != kNone && expected != objects[i]) return {};
+    if (!term.object) bound[term.index] = objects[i];
+  }
+  return ground_->bindings(behaviour.variables, std::move(bound), behaviour.where);
+}
+
+bool Successors::whole(const PartialPlan& plan, const Ground& ground) {
+  if (plan.urgent() != nullptr || !plan.open().empty()) return false;
+  for (Index c = 0; c < ground.model().components.size(); ++c) {
+    const StateKind kind = ground.at(plan.current_state(c)).kind;
+    if (kind != StateKind::resting && kind != StateKind::error) return false;
+  }
+  return true;
+}
+
+void Successors::of(const PartialPlan& plan, std::vector<Step>& out) {
+  out.clear();
+  obstacle_ = {};
+  if (const Urgent* item = plan.urgent()) return urgent(plan, *item, out);
+  if (plan.open().empty()) return rest(plan, out);
+  for (const Index activity : candidates(plan)) place(plan, activity, out);
+}
+
+std::vector<Index> Successors::candidates(const PartialPlan& plan) {
+  const auto footprint = [&](Index activity) { return ground_->footprint(plan.component(activity)); };
+  std::vector<Index> ready;
+  for (const Index activity : plan.open())
+    if (plan.ready(activity)) ready.push_back(activity);
+  std::ranges::stable_sort(ready, {}, [&](Index activity) {
+    return std::pair(plan.network().earliest(plan.activities()[activity].start), activity);
+  });
+  if (ready.size() < 2) return ready;
+  // Those that nothing outside of the set interferes with: what waits for one of them comes after it anyway.
+  std::vector<Index> chosen{ready.front()};
+  ComponentSet touched = footprint(ready.front());
+  const auto waits_for = [&](Index activity, Index other) {
+    std::vector<Index> open{activity};
+    for (std::size_t i = 0; i < open.size(); ++i)
+      for (const Index earlier : plan.before(open[i])) {
+        if (earlier == other) return true;
+        if (std::ranges::find(open, earlier) == open.end()) open.push_back(earlier);
+      }
+    return false;
+  };
+  for (bool more = true; more;) {
+    more = false;
+    for (const Index activity : plan.open()) {
+      if (std::ranges::find(chosen, activity) != chosen.end() || (footprint(activity) & touched) == 0)
+        continue;
+      if (std::ranges::any_of(chosen, [&](Index one) { return waits_for(activity, one); })) continue;
+      if (std::ranges::find(ready, activity) != ready.end()) {
+        chosen.push_back(activity);
+        touched |= footprint(activity);
+        more = true;
+        continue;
+      }
+      for (const Index first : ready) {  // it waits for something: all that is ready may be in its way
+        if (std::ranges::find(chosen, first) != chosen.end()) continue;
+        chosen.push_back(first);
+        touched |= footprint(first);
+        more = true;
+      }
+    }
+  }
+  std::ranges::stable_sort(
+      chosen, {}, [&](Index activity) { return std::ranges::find(ready, activity) - ready.begin(); });
+  return chosen;
+}
+
+std::vector<StateId> Successors::towards(const PartialPlan& plan, Index component, StateId goal,
+                                         Index path_from, bool complex_permitted) {
+  std::vector<std::pair<Index, StateId>> found;
+  for (const StateId after : std::vector<StateId>(ground_->next(plan.current_state(component)))) {
+    const Index left = ground_->distance(after, goal);
+    if (left == kNone || (after != goal && plan.passed(component, after, path_from))) continue;
+    if (!complex_permitted && ground_->at(after).kind == StateKind::complex) continue;
+    found.emplace_back(left, after);
+  }
+  if (order_ == Order::last_declared) std::ranges::reverse(found);
+  std::ranges::stable_sort(found, {}, &std::pair<Index, StateId>::first);
+  std::vector<StateId> out;
+  for (const auto& [left, state] : found) {
+    if (detours_ || left == found.front().first) {
+      out.push_back(state);
+    } else {
+      left_out_ = true;
+    }
+  }
+  return out;
+}
+
+void Successors::place(const PartialPlan& plan, Index index, std::vector<Step>& out) {
+  const Activity& activity = plan.activities()[index];
+  if (activity.nested) return out.push_back({StepKind::nest, index, 0, 0});
+  const Index component = plan.component(index);
+  if (plan.current_state(component) == activity.state &&
+      ground_->at(activity.state).kind == StateKind::resting)
+    return out.push_back({StepKind::attach, index, 0, 0});
+  const Index path_from =
+      activity.path_from == kNone ? static_cast<Index>(plan.tokens().size()) : activity.path_from;
+  const auto states = towards(plan, component, activity.state, path_from, true);
+  for (const StateId state : states) out.push_back({StepKind::append, index, state, 0});
+  if (states.empty())
+    obstacle_ = {Obstacle::Kind::no_path,      activity.goal, activity.state, kNone, kNone,
+                 plan.current_state(component)};
+}
+
+void Successors::urgent(const PartialPlan& plan, const Urgent& item, std::vector<Step>& out) {
+  if (item.kind == UrgentKind::decompose) return decompositions(plan, item.subject, out);
+  if (item.kind == UrgentKind::need) return needs(plan, item, out);
+  const Index component = ground_->at(item.goal).state.component;
+  for (const StateId state : towards(plan, component, item.goal, item.path_from, false))
+    out.push_back({StepKind::path_to_need, item.subject, state, item.need});
+}
+
+void Successors::decompositions(const PartialPlan& plan, Index activity, std::vector<Step>& out) {
+  const StateId state = plan.activities()[activity].state;
+  const auto add = [&](Index behaviour, Index binding) {
+    out.push_back({StepKind::decompose, activity, behaviour, binding});
+  };
+  if (state == kNone) {
+    for (const auto& [behaviour, binding] : plan.mending(activity)) add(behaviour, binding);
+    return;
+  }
+  const model::GroundState& ground = ground_->at(state).state;
+  for (const Index behaviour : behaviours(ground.component, ground.state)) {
+    auto all = ways(behaviour, state);
+    if (order_ == Order::last_declared) std::ranges::reverse(all);
+    for (const auto& objects : all) add(behaviour, bindings_->number(objects));
+  }
+  if (out.empty())
+    obstacle_ = {Obstacle::Kind::no_behaviour, plan.activities()[activity].goal, state, kNone, kNone, kNone};
+}
+
+void Successors::needs(const PartialPlan& plan, const Urgent& item, std::vector<Step>& out) {
+  const model::Need& need = ground_->definition(plan.tokens()[item.subject].state).needs[item.need];
+  const std::vector<Index> variables = plan.need_variables(item.subject);
+  const Index component = need.state.component;
+  const auto here = [&](Index token) {
+    if (ground_->fits(plan.tokens()[token].state, need.state, variables))
+      out.push_back({StepKind::need_here, item.subject, token, item.need});
+  };
+  const Index current = plan.current(component);
+  here(current);
+  const Index running = plan.tokens()[current].activity;
+  if (running == kNone || plan.complete(running) ||
+      ground_->at(plan.tokens()[current].state).kind != StateKind::complex)
+    for (const StateId goal : ground_->reachable(plan.current_state(component), need.state, variables))
+      if (goal != plan.current_state(component))
+        out.push_back({StepKind::need_path, item.subject, goal, item.need});
+  Index token = plan.tokens()[current].before;
+  for (int back = 0; back < kTokensLookedBack && token != kNone; ++back, token = plan.tokens()[token].before)
+    here(token);
+  if (out.empty())
+    obstacle_ = {Obstacle::Kind::need,         kNone, plan.tokens()[item.subject].state, kNone, item.need,
+                 plan.current_state(component)};
+}
+
+void Successors::rest(const PartialPlan& plan, std::vector<Step>& out) {
+  for (Index c = 0; c < ground_->model().components.size(); ++c) {
+    const StateId state = plan.current_state(c);
+    const StateKind kind = ground_->at(state).kind;
+    if (kind == StateKind::resting || kind == StateKind::error) continue;
+    std::vector<std::pair<Index, StateId>> found;
+    for (const StateId after : std::vector<StateId>(ground_->next(state))) {
+      const Index left = ground_->distance_to_rest(after);
+      if (left != kNone && ground_->at(after).kind != StateKind::complex &&
+          left < ground_->distance_to_rest(state))
+        found.emplace_back(left, after);
+    }
+    std::ranges::stable_sort(found, {}, &std::pair<Index, StateId>::first);
+    for (const auto& [left, after] : found) out.push_back({StepKind::rest, c, after, 0});
+    if (out.empty()) obstacle_ = {Obstacle::Kind::no_path, kNone, kNone, kNone, kNone, state};
+    return;  // the others come later
+  }
+}
+
+}  // namespace roci::planner::timeline_htn::search
