@@ -231,7 +231,6 @@ std::vector<TaskIndex> Cycle::closed_but(std::set<TaskIndex> open, Time now) con
 Report Cycle::run(Time now) {
   Report report;
   report.notes = std::exchange(notes_, {});
-  const auto planned_before = not_begun();
   const auto does = [&](Activity what, bool changes) {
     if (!changes) return;
     report.done.push_back(what);
@@ -251,7 +250,7 @@ Report Cycle::run(Time now) {
   does(Activity::repair, (settings_.repairs && surprised && repair(now, report)) || reordered);
   if (settings_.optimizes) does(Activity::optimize, optimize(now, report));
   if (settings_.repairs && report.changed) keep_limits(report);
-  if (report.changed) tell_losses(planned_before, now, report);
+  tell_losses(now, report);
   return report;
 }
 
