@@ -6,13 +6,14 @@
 #include <cmath>
 #include <set>
 
+#include "core/temporal/network_distances.hpp"
 #include "planner_svc/timeline_htn/checking/check.hpp"
 #include "tests/unit/planner_svc/timeline_htn/checking/plans.hpp"
 
 namespace roci::planner::timeline_htn::checking {
 namespace {
 
-using temporal::FlexiblePlan, temporal::PlanActivity;
+using model::Index, temporal::FlexiblePlan, temporal::PlanActivity;
 using testing::Contains;
 using testing::IsEmpty;
 using testing::Not;
@@ -48,6 +49,38 @@ TEST(FasterModel, TheTrialIsPlannedAsTwelveCycles) {
     if (!activity.owner.empty()) owners.insert(activity.owner);
   EXPECT_EQ(owners, (std::set<std::string>{"communications", "primary.locomotion", "primary.path_planning",
                                            "scout.locomotion", "scout.path_planning"}));
+}
+
+// R139: in one cycle, whatever the durations.
+TEST(FasterModel, TheStepsOfACycleFollowEachOtherAndItsDecisionIsOpen) {
+  const FlexiblePlan plan = checked_plan("problem");
+  const temporal::NetworkDistances network(plan.point_count, all_constraints(plan));
+  const auto first = [&](const std::string& beginning) {
+    return *std::ranges::find_if(plan.activities,
+                                 [&](const auto& activity) { return activity.name.starts_with(beginning); });
+  };
+  const std::vector<std::string> steps{"primary_path.selecting",
+                                       "primary_path.localising",
+                                       "antenna.telling_place",
+                                       "scout_locomotion.turning",
+                                       "scout_path.imaging",
+                                       "antenna.fetching_map",
+                                       "primary_path.merging",
+                                       "primary_path.planning",
+                                       "antenna.telling_path",
+                                       "scout_path.planning",
+                                       "scout_locomotion.traversing_with_ss",
+                                       "primary_locomotion.following"};
+  for (std::size_t i = 1; i < steps.size(); ++i)
+    EXPECT_TRUE(network.implies(first(steps[i - 1]).end_point, first(steps[i]).start_point,
+                                temporal::Duration{0}, temporal::no_bound))
+        << steps[i - 1] << " before " << steps[i];
+  EXPECT_TRUE(network.same_time(first("scout_locomotion.turning").start_point,
+                                first("primary_locomotion.turning").start_point));
+  const auto& decision = plan.decisions.back();
+  ASSERT_EQ(decision.choices.size(), 2U);
+  EXPECT_EQ(decision.choices[0].name, "follow");
+  EXPECT_EQ(decision.choices[1].name, "bring_back");
 }
 
 TEST(FasterModel, ALostScoutLeavesThePrimaryToTraverseAlone) {

@@ -7,6 +7,7 @@
 
 #include "planner_svc/timeline_htn/checking/check.hpp"
 #include "tests/unit/planner_svc/timeline_htn/checking/plans.hpp"
+#include "tests/unit/planner_svc/timeline_htn/reading/texts.hpp"
 
 namespace roci::planner::timeline_htn::checking {
 namespace {
@@ -241,9 +242,45 @@ TEST(TimelineChecker, WantsWhatIsTriggered) {
   }),
               Contains(HasSubstr("the plan begins in base.stuck(dock), and none of the behaviours")));
   EXPECT_THAT(plan.under([](auto& m) {
-    behaviour(m, "free_the_base").subgoals.erase(behaviour(m, "free_the_base").subgoals.begin());
+    behaviour(m, "free_the_base").subgoals[0].state.terms[0] = {1, true};
   }),
-              testing::Not(IsEmpty()));
+              Contains(HasSubstr("its subgoal 'back_off', base.backing_off(well) is not among the parts")));
+}
+
+const Checked& with_decisions() {
+  static const Checked out(parse(reading::kSound));
+  return out;
+}
+
+TEST(TimelineChecker, HoldsDecisionsAgainstThoseOfTheBehaviour) {
+  const auto& plan = with_decisions();
+  EXPECT_THAT(plan.faults(), IsEmpty());
+  const auto decision = [&](const std::string& name,
+                            const std::function<void(temporal::DecisionPoint&)>& harm) {
+    return plan.after([&](auto& p) {
+      for (auto& one : p.decisions)
+        if (one.id.ends_with("." + name)) harm(one);
+    });
+  };
+  EXPECT_THAT(
+      plan.after(
+          [](auto& p) { std::erase_if(p.decisions, [](const auto& d) { return d.id.ends_with(".how"); }); }),
+      Contains(HasSubstr("antenna.send(status) (activity a4) does not stand on the timeline antenna")))
+      << "of no choice, so it would be planned on";
+  EXPECT_THAT(decision("how", [](auto& d) { d.choices[0].name = "c"; }),
+              Contains(HasSubstr("choice 'c' is not 'a' of the behaviour")));
+  EXPECT_THAT(decision("how", [](auto& d) { d.choices[0].rule = {}; }),
+              Contains(HasSubstr("or has another rule")));
+  EXPECT_THAT(decision("how", [](auto& d) { d.choices[0].activities.clear(); }),
+              Contains(HasSubstr("choice 'a' lacks the activity of subgoal 'tell'")));
+  EXPECT_THAT(decision("how", [](auto& d) { d.id = "nobody.how"; }),
+              Contains(HasSubstr("is of no activity")));
+  EXPECT_THAT(decision("how", [](auto& d) { d.resolver_kind = temporal::ResolverKind::ground; }),
+              Contains(HasSubstr("it is asked of somebody else")));
+  EXPECT_THAT(plan.after([](auto& p) {
+    for (auto& one : p.decisions) one.decide_before = p.activities[0].end_point;
+  }),
+              Contains(HasSubstr("it need not be made before the point that the behaviour names")));
 }
 
 }  // namespace
