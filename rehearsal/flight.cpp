@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <exception>
+#include <fstream>
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <thread>
 
@@ -12,6 +14,8 @@
 #include "services/link/link_file.hpp"
 #include "services/node.hpp"
 #include "services/process/link_report.hpp"
+#include "services/publisher.hpp"
+#include "services/topics.hpp"
 #include "services/transport/plug_ins.hpp"
 
 namespace roci::rehearsal {
@@ -37,6 +41,50 @@ class FirstFailure {
  private:
   std::mutex mutex_;
   std::exception_ptr error_;
+};
+
+// Writes what the services say in a flight into its run folder, in mission time. It takes no part in the clock, so it changes nothing.
+class Listener {
+ public:
+  explicit Listener(const FlightOptions& options)
+      : out_(options.run.run_folder / kEventsFile), node_(node_of(options), transport_of(options)) {
+    services::subscribe(node_, services::topics::event, [this](const v1::Event& event) {
+      out_ << nlohmann::json{{"time_us", event.header().stamp_us()},
+                             {"sender", event.header().sender()},
+                             {"code", event.code()},
+                             {"text", event.text()}}
+                  .dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)
+           << "\n";
+    });
+    thread_ = std::thread([this] { node_.run(); });
+  }
+  ~Listener() {
+    node_.stop();
+    thread_.join();
+    node_.spin_once(std::chrono::milliseconds(0));  // what came last
+  }
+
+ private:
+  static services::node::NodeOptions node_of(const FlightOptions& options) {
+    services::node::NodeOptions out;
+    out.name = "rehearsal";
+    out.mission = std::filesystem::absolute(options.run.mission).lexically_normal().filename().string();
+    out.run = out.mission;
+    out.incarnation = 0;
+    out.vendor = "inproc";
+    out.clock = services::clock::ClockMode::observer;
+    return out;
+  }
+  static std::unique_ptr<services::transport::Transport> transport_of(const FlightOptions& options) {
+    services::transport::TransportOptions out;
+    out.domain = options.domain;
+    out.participant = "rehearsal";
+    return services::transport::open_transport("inproc", out);
+  }
+
+  std::ofstream out_;
+  services::Node node_;
+  std::thread thread_;
 };
 
 }  // namespace
@@ -90,6 +138,7 @@ void fly(const FlightOptions& options) {
     seat.service = make_of(entry, options.programs)(*seat.node, run);
     seats.push_back(std::move(seat));
   }
+  const auto listener = options.run.run_folder.empty() ? nullptr : std::make_unique<Listener>(options);
   FirstFailure failure;
   std::vector<std::thread> threads;
   for (Seat& seat : seats) {

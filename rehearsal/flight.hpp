@@ -10,6 +10,9 @@
 
 namespace roci::rehearsal {
 
+/// In the run folder of each flight: a line of JSON for each event of any service, with its mission time, its sender, code and text.
+inline constexpr char kEventsFile[] = "events.jsonl";
+
 /// A program by the name that it has as a process.
 struct Program {
   std::string name;

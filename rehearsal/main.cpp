@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "rehearsal/flight.hpp"
+#include "rehearsal/statistics.hpp"
 #include "services/clock/wall.hpp"
 #include "services/process/link_report.hpp"
 #include "services/process/mission_folder.hpp"
@@ -73,6 +74,7 @@ int rehearse(const Arguments& arguments) {
           ? std::filesystem::temp_directory_path() / ("rocinante-rehearsal-" + std::to_string(::getpid()))
           : std::filesystem::path(arguments.folder);
   int achieved = 0;
+  roci::rehearsal::Statistics statistics;
   nlohmann::json last;
   for (int i = 0; i < arguments.runs; ++i) {
     const std::uint64_t seed = arguments.seed + static_cast<std::uint64_t>(i);
@@ -80,6 +82,7 @@ int rehearse(const Arguments& arguments) {
         arguments.runs == 1 && !arguments.folder.empty() ? base : base / ("seed-" + std::to_string(seed));
     last = fly_once(arguments, seed, run_folder, i + 1);
     achieved += last.value("result", "failed") == "achieved";
+    statistics.add(run_folder, last.value("result", "failed"));
     if (!arguments.json) print(last);
     if (arguments.json && arguments.runs > 1) std::cout << last.dump() << "\n";
   }
@@ -87,9 +90,12 @@ int rehearse(const Arguments& arguments) {
   if (arguments.json && arguments.runs == 1) {
     std::cout << last.dump() << "\n";
   } else if (arguments.json) {
-    std::cout << nlohmann::json{{"runs", arguments.runs}, {"achieved", achieved}}.dump() << "\n";
+    nlohmann::json total = statistics.json();
+    total.update({{"runs", arguments.runs}, {"achieved", achieved}});
+    std::cout << total.dump() << "\n";
   } else if (arguments.runs > 1) {
-    std::cout << achieved << " of " << arguments.runs << " flights achieved every hard goal\n";
+    std::cout << achieved << " of " << arguments.runs << " flights achieved every hard goal\n"
+              << statistics.text();
   }
   return achieved == arguments.runs ? kAchieved : kNotAchieved;
 }

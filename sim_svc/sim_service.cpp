@@ -1,11 +1,13 @@
 #include "sim_svc/sim_service.hpp"
 
+#include <algorithm>
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <utility>
 
+#include "core/mission/service_list.hpp"
 #include "services/owner/command_server.hpp"
 #include "services/publisher.hpp"
 #include "services/rpc.hpp"
@@ -35,6 +37,7 @@ using world::Observed;
 using world::PathWanted;
 using world::Product;
 using world::RockSeen;
+using world::SoilMarked;
 using world::TaskReport;
 using world::TaskStage;
 
@@ -50,6 +53,28 @@ constexpr char kGround[] = "ground";  // who tells of hazards that the scenario 
 constexpr Duration kCallDeadline = std::chrono::seconds(30);
 constexpr Duration kFarewell = std::chrono::seconds(1);  // from the mission's outcome to the end of the run
 
+// Returns the scenario's first stimulus that sets a value; null: there is none.
+const Stimulus* first_value(const Scenario& scenario) {
+  const auto sets = [](const Stimulus& stimulus) {
+    return std::holds_alternative<ValueStimulus>(stimulus.what);
+  };
+  const auto found = std::ranges::find_if(scenario.stimuli, sets);
+  return found == scenario.stimuli.end() ? nullptr : &*found;
+}
+
+// In a secure run nobody would hear an order of a service that has no right to give any.
+void check_rights(const Scenario& scenario, const std::string& service,
+                  const services::RunSettings& settings) {
+  const Stimulus* const value = first_value(scenario);
+  if (!settings.secure || value == nullptr) return;
+  const mission::ServiceList services = mission::load_service_list_if_any(settings.mission);
+  const mission::ServiceEntry* const own = services.find(service);
+  if (own != nullptr && std::ranges::find(own->rights, "console") != own->rights.end()) return;
+  value->entry->fail(
+      "in a secure run the console alone gives orders; give this one there (roci order set), or let " +
+      service + " have 'rights: [world, console]' in services: and its certificate made anew");
+}
+
 class SimService final : public services::Service, private owner::Driver {
  public:
   SimService(services::Node& node, RunSetup run, const services::RunSettings& settings)
@@ -64,6 +89,7 @@ class SimService final : public services::Service, private owner::Driver {
         observations_(services::advertise(node, topics::observation)),
         products_(services::advertise(node, topics::data_product)),
         hazards_(services::advertise(node, topics::hazard)),
+        findings_(services::advertise(node, topics::terrain_finding)),
         goals_(services::advertise(node, topics::goal)),
         network_orders_(services::advertise(node, topics::network_order)),
         events_(services::advertise(node, topics::event)) {
@@ -74,6 +100,7 @@ class SimService final : public services::Service, private owner::Driver {
       go_on_with(run_folder_ / (node.options().name + ".world"));
     }
     if (!run_folder_.empty()) effects_.open(run_folder_ / "effects.jsonl", std::ios::app);
+    if (!run_folder_.empty()) fates_.open(run_folder_ / "products.jsonl", std::ios::app);
     if (!run_folder_.empty()) begun_.open(run_folder_ / "begun.json");
     services::subscribe(node, topics::mission_status, [this](const v1::MissionStatus& status) {
       if (executives_.size() >= kExecutives && !executives_.contains(status.executive())) return;
@@ -87,10 +114,8 @@ class SimService final : public services::Service, private owner::Driver {
       tell(world_.heed(node_.now(), wire::schedule_of(schedule)));
     });
     node.at(Time{}, [this] { tell(world_.advance(node_.now())); });
-    // In a secure run orders are the console's alone, so only who needs this asks for it.
-    for (const Stimulus& stimulus : scenario_.stimuli)
-      if (!orders_ && std::holds_alternative<ValueStimulus>(stimulus.what))
-        orders_.emplace(services::advertise(node, topics::order));
+    // In a secure run orders are the console's, so only who needs this asks for it.
+    if (first_value(scenario_) != nullptr) orders_.emplace(services::advertise(node, topics::order));
     for (const Stimulus& stimulus : scenario_.stimuli) {
       node.at(stimulus.at, [this, &stimulus] { stimulate(stimulus); });
     }
@@ -126,6 +151,7 @@ class SimService final : public services::Service, private owner::Driver {
                        [this](const Image& image) { publish(image); },
                        [this](const Product& product) { publish(product); },
                        [this](const RockSeen& rock) { warn_of(rock); },
+                       [this](const SoilMarked& soil) { warn_of(soil); },
                        [this](const PathWanted& path) { ask(path); },
                        [this](const MotionWanted& motion) { ask(motion); }},
                  output);
@@ -133,6 +159,7 @@ class SimService final : public services::Service, private owner::Driver {
     record_effects();
     record_begun();
     if (kept_) kept_->keep(world_.memory());
+    end_if_over();
     if (wake_) node_.cancel(*wake_);
     wake_.reset();
     const auto next = world_.next_change();
@@ -154,6 +181,16 @@ class SimService final : public services::Service, private owner::Driver {
     const v1::DataProduct sample = wire::to_wire(product);
     products_.write(sample);
     if (world::is_final(product.fate)) products_.dispose(sample);
+    fates_ << nlohmann::json{{"time_us", node_.now().count()},
+                             {"robot", product.robot},
+                             {"id", product.id},
+                             {"kind", product.kind},
+                             {"source", product.source},
+                             {"bytes", product.bytes},
+                             {"tier", world::name_of(product.tier)},
+                             {"fate", world::name_of(product.fate)}}
+                  .dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)
+           << std::endl;
   }
 
   void report(const TaskReport& task) {
@@ -165,9 +202,22 @@ class SimService final : public services::Service, private owner::Driver {
   }
 
   void warn_of(const RockSeen& rock) {
-    hazards_.write(wire::to_wire(rock, node_.options().name));
+    if (rock.own_map)
+      findings_.write(wire::finding_of(rock));
+    else
+      hazards_.write(wire::to_wire(rock, node_.options().name));
     announce(v1::SEVERITY_WARNING, "hazard.seen",
              "a rock that the map does not show lies on the way (" + rock.id + ")");
+  }
+
+  void warn_of(const SoilMarked& soil) {
+    if (soil.own_map)
+      findings_.write(wire::finding_of(soil));
+    else
+      hazards_.write(wire::to_wire(soil, node_.options().name));
+    announce(
+        v1::SEVERITY_WARNING, "soil.no_go",
+        soil.robot + " says No-Go for " + soil.judged_for + " (" + soil.id + ", " + soil.instrument + ")");
   }
 
   void ask(const PathWanted& path) {
@@ -246,9 +296,10 @@ class SimService final : public services::Service, private owner::Driver {
     return over;
   }
 
-  // The mission may go on when a goal arrives in the meantime.
+  // The mission may go on when a goal arrives in the meantime. What is on its way to Earth still arrives.
   void end_if_over() {
-    const bool over = mission_over() && stimuli_done_ == scenario_.stimuli.size();
+    const bool over =
+        mission_over() && stimuli_done_ == scenario_.stimuli.size() && !world_.has_data_under_way();
     if (over == farewell_.has_value()) return;
     if (over) {
       farewell_ = node_.after(kFarewell,
@@ -317,6 +368,7 @@ class SimService final : public services::Service, private owner::Driver {
   std::optional<WorldFile> kept_;  // of a live robot
   std::optional<Time> goes_on_from_;
   std::ofstream effects_;
+  std::ofstream fates_;  // of data products
   std::ofstream begun_;
   const char* begun_separator_ = "[\n";
   scenario::EventOrder order_;
@@ -327,6 +379,7 @@ class SimService final : public services::Service, private owner::Driver {
   services::Publisher<v1::Observation> observations_;
   services::Publisher<v1::DataProduct> products_;
   services::Publisher<v1::Hazard> hazards_;
+  services::Publisher<v1::TerrainFinding> findings_;  ///< for a robot's own map
   services::Publisher<v1::Goal> goals_;
   services::Publisher<v1::NetworkOrder> network_orders_;
   std::optional<services::Publisher<v1::Order>> orders_;  ///< of scenarios that set values
@@ -341,8 +394,9 @@ class SimService final : public services::Service, private owner::Driver {
 }  // namespace
 
 std::unique_ptr<services::Service> make_service(services::Node& node, const services::RunSettings& settings) {
-  return std::make_unique<SimService>(node, scenario::load_run(settings.mission_file(), settings.scenario),
-                                      settings);
+  scenario::RunSetup run = scenario::load_run(settings.mission_file(), settings.scenario);
+  check_rights(run.scenario, node.options().name, settings);
+  return std::make_unique<SimService>(node, std::move(run), settings);
 }
 
 }  // namespace roci::sim

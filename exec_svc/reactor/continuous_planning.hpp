@@ -28,6 +28,7 @@ class ContinuousPlanning final : public ReplanningPolicy {
                        temporal::FlexiblePlan& next) const;
   void adopt_version(temporal::Time now, temporal::FlexiblePlan plan);
   void note_planned(const temporal::FlexiblePlan& plan);
+  bool end_with_goals(temporal::Time now);
   void monitor(temporal::Time now);
   void check_ahead(temporal::Time now);
   void await_repair(temporal::Time now, const std::string& reason);

@@ -41,6 +41,7 @@ struct Line {
   cli::ReachArguments reach;
   cli::map::MapArguments map;
   cli::outlook::OutlookArguments outlook;
+  std::uint32_t version = 0;
   std::vector<double> from;
   bool prunes = false;
   std::size_t kept = 20;
@@ -232,10 +233,10 @@ void tell_waiting() {
   std::cerr << "roci: no mission runs on this machine yet; waiting for one (Ctrl-C ends, ./run starts one)\n";
 }
 
-// The program beside this one takes over; it knows the executive, the ground tool does not.
-int become_replay(std::vector<std::string> arguments) {
-  const auto program = std::filesystem::read_symlink("/proc/self/exe").parent_path() / "roci-replay";
-  arguments.insert(arguments.begin(), "roci-replay");
+// The program beside this one takes over; it knows the executive or the planner's networks, the ground tool does not.
+int become(const std::string& name, std::vector<std::string> arguments) {
+  const auto program = std::filesystem::read_symlink("/proc/self/exe").parent_path() / name;
+  arguments.insert(arguments.begin(), name);
   std::vector<char*> words;
   for (std::string& argument : arguments) words.push_back(argument.data());
   words.push_back(nullptr);
@@ -247,7 +248,9 @@ int become_replay(std::vector<std::string> arguments) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc > 1 && std::string(argv[1]) == "replay") return become_replay({argv + 2, argv + argc});
+  if (argc > 1 && std::string(argv[1]) == "replay") return become("roci-replay", {argv + 2, argv + argc});
+  // The subcommand has the same name there.
+  if (argc > 1 && std::string(argv[1]) == "explain") return become("roci-network", {argv + 1, argv + argc});
   Line line;
   CLI::App app("Ground tool of Rocinante");
   app.require_subcommand(1);
@@ -273,6 +276,9 @@ int main(int argc, char** argv) {
       ->add_option("--why", line.activity,
                    "Instead: the function values that this activity stands on (its id, or its name for all "
                    "of that name)");
+  add_verb(app, line, "executed", "A plan that has ended, with real times and what its commands brought",
+           [](lib::Client& client, const Line& l) { return cli::show_executed(client, l.version, l.json); })
+      ->add_option("version", line.version, "Of the plan (default: the one that ended last)");
   CLI::App* timelines =
       add_verb(app, line, "timelines", "Planned, executed and projected values of every timeline",
                [](lib::Client& client, const Line& l) {
@@ -321,6 +327,8 @@ int main(int argc, char** argv) {
   events->add_option("--launcher", line.launcher, "Join the run of this roci-launch, by its process id");
   watching->add_option("--launcher", line.launcher, "Join the run of this roci-launch, by its process id");
   app.add_subcommand("replay", "Repeat a run from its journal: roci replay JOURNAL (--help tells more)");
+  app.add_subcommand("explain",
+                     "Why a task of a network is not planned: roci explain NETWORK TASK (--help tells more)");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -279,6 +279,7 @@ std::optional<Time> CommandLedger::next_overrun() const {
     if (!record.repaired || !record.latest_end || is_last(record.word)) continue;
     if (!first || *record.latest_end < *first) first = record.latest_end;
   }
+  if (first) *first += Time{1};
   return first;
 }
 
@@ -286,7 +287,7 @@ std::vector<CommandKey> CommandLedger::take_overruns(Time now) {
   std::vector<CommandKey> out;
   for (auto& [key, record] : records_) {
     const bool limited = record.repaired && record.latest_end && !is_last(record.word);
-    if (!limited || *record.latest_end > now) continue;
+    if (!limited || *record.latest_end >= now) continue;
     record.repaired = false;
     out.push_back(key);
   }

@@ -84,7 +84,8 @@ class CommandLedger {
   /// other. Returns nothing if there is no such running command, or its latest end has passed, and the owner
   /// fails it.
   std::optional<Ack> repair(const CommandKey&, std::string reason, temporal::Time now);
-  /// Returns when the first repaired command must have ended, or nothing if none is limited.
+  /// Returns when the first repaired command has not ended in time, a microsecond after its latest end; nothing if none
+  /// is limited.
   std::optional<temporal::Time> next_overrun() const;
   /// Returns the repaired commands that have not ended in time, each once: the owner breaks them off as
   /// failed.

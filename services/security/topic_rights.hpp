@@ -25,6 +25,7 @@ enum class Role {
   analyst,       ///< It looks at data products and asks for goals.
   listener,      ///< It hears whatever the robot and its executive say, and says nothing but events.
   owner,         ///< It executes commands and reports what it observes.
+  commander,     ///< It commands subsystems on behalf of an executive, beside being an owner.
   world,         ///< It plays the ground's script beside being an owner: the simulator.
   resolver,      ///< It answers decisions of running plans.
   launcher,      ///< It watches a run.

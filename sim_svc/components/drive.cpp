@@ -2,6 +2,8 @@
 
 #include <charconv>
 #include <cmath>
+#include <iomanip>
+#include <sstream>
 #include <utility>
 
 namespace roci::sim::components {
@@ -14,6 +16,8 @@ using world::Surroundings;
 
 namespace {
 
+constexpr double kRim = 0.05;  // m, of a marked circle in which a No-Go is no news either
+
 std::optional<double> number(const std::string& text) {
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -21,13 +25,22 @@ std::optional<double> number(const std::string& text) {
   return value;
 }
 
+Failure bogged_down() {
+  return {"bogged-down",
+          "the soil does not bear the robot, and its wheels have dug it in; it needs help from outside"};
+}
+
 }  // namespace
 
 Drive::Drive(DriveSettings settings, world::RandomStream noise)
-    : settings_(std::move(settings)), place_(settings_.stop_place), noise_(std::move(noise)) {}
+    : settings_(std::move(settings)),
+      place_(settings_.stop_place),
+      noise_(std::move(noise)),
+      soil_noise_(noise_.branch("soil")) {}
 
 State Drive::state() const {
-  return target_ ? State{"going-to", {target_->place}} : State{"idle-at", {place_}};
+  if (!target_) return State{"idle-at", {place_}};
+  return State{"going-to", {target_->turns ? place_ : target_->place}};
 }
 
 std::optional<std::string> Drive::place() const {
@@ -36,25 +49,38 @@ std::optional<std::string> Drive::place() const {
 }
 
 world::Memory Drive::memory() const {
-  const bool moved = target_ && (trace_ || detours_ > 0);
-  return {{"place", State{"idle-at", {moved ? settings_.stop_place : place_}}}};
+  const bool moved = target_ && !target_->turns && (trace_ || detours_ > 0);
+  world::Memory out{{"place", State{"idle-at", {moved ? settings_.stop_place : place_}}}};
+  if (bogged_) out.emplace("bogged", true);
+  return out;
 }
 
 void Drive::restore(const world::Memory& memory) {
   const auto kept = memory.find("place");
   const auto* state = kept == memory.end() ? nullptr : std::get_if<State>(&kept->second);
   if (state && state->arguments.size() == 1) place_ = state->arguments.front();
+  const auto bogged = memory.find("bogged");
+  bogged_ = bogged != memory.end() && bogged->second == temporal::Value{true};
 }
 
-Ending Drive::begin(const world::Task& task, Time, Surroundings& around) {
+Ending Drive::begin(const world::Task& task, Time now, Surroundings& around) {
   const auto x = number(task.arguments.at("x"));
   const auto y = number(task.arguments.at("y"));
-  if (!x || !y) return Failure{"bad-arguments", "drive: x and y must be numbers, in metres"};
+  if (!x || !y) return Failure{"bad-arguments", task.command + ": x and y must be numbers, in metres"};
+  if (bogged_) return bogged_down();
   for (const auto* other : around.components.all<world::BodyInterlock>()) {
     if (Ending forbidden = other->forbids_driving()) return forbidden;
   }
-  target_ = Target{task.key, task.latest_end, task.arguments.at("to"), *x, *y};
   detours_ = last_detours_ = 0;
+  sinkage_m_ = soil_slip_ = 0;
+  soil_ = {};
+  if (task.command == "turn") {
+    target_ = Target{task.key, task.latest_end, place_, *x, *y, true};
+    trace_ = simulate_turn(settings_.motion, now, *around.body.pose, {*x, *y}, noise_);
+    around.deeds.push_back({"turn", place_});
+    return std::nullopt;
+  }
+  target_ = Target{task.key, task.latest_end, task.arguments.at("to"), *x, *y};
   ask(around);
   return std::nullopt;
 }
@@ -69,17 +95,22 @@ Ending Drive::answer(const world::Answer& answer, Time now, Surroundings& around
   if (!way || way->points.empty()) return Failure{"no-path", "the path has no way-points"};
   way_ = way->points;
   around.deeds.push_back({detours_ == 0 ? "motion" : "detour", target_->place});
-  trace_ =
-      simulate_drive(around.environment.ground, settings_.motion, now, *around.body.pose, way_, 0, noise_);
+  simulate(now, *around.body.pose, 0, around.environment.ground);
   return std::nullopt;
 }
 
 void Drive::ground_changed(Time now, Surroundings& around) {
-  if (!trace_) return;
+  if (!trace_ || target_->turns) return;
   const DriveSample sample = trace_->at(now);
   around.body.pose = sample.pose;
-  trace_ = simulate_drive(around.environment.ground, settings_.motion, now, sample.pose, way_,
-                          sample.next_waypoint, noise_);
+  simulate(now, sample.pose, sample.next_waypoint, around.environment.ground);
+}
+
+void Drive::simulate(Time now, const world::Pose& from, std::size_t first, const world::Ground& ground) {
+  SoilSensor sensor(settings_.soil_sensor, marked_, soil_noise_);
+  const bool senses = !settings_.soil_sensor.instruments.empty();
+  trace_ =
+      simulate_drive(ground, settings_.motion, now, from, way_, first, noise_, senses ? &sensor : nullptr);
 }
 
 std::optional<Time> Drive::next_change() const {
@@ -97,6 +128,10 @@ Ending Drive::finish(Surroundings& around) {
   around.body.pose = trace.samples.back().pose;
   const std::string rock = trace.outcome == DriveEnd::blocked ? see_rock(trace, around) : "";
   if (!rock.empty() && looks_around(trace, rock, around)) return std::nullopt;
+  bogged_ = trace.outcome == DriveEnd::bogged;
+  sinkage_m_ = trace.deepest_sinkage_m;
+  soil_slip_ = trace.most_soil_slip;
+  soil_ = trace.soil;
   stand(trace.outcome == DriveEnd::arrived ? target_->place : settings_.stop_place);
   switch (trace.outcome) {
     case DriveEnd::arrived:
@@ -105,6 +140,10 @@ Ending Drive::finish(Surroundings& around) {
       return Failure{"stuck", "the wheels turn without progress"};
     case DriveEnd::collision:
       return Failure{"collision", "the path led into a rock of the map"};
+    case DriveEnd::no_go:
+      return mark_soil(trace, around);
+    case DriveEnd::bogged:
+      return bogged_down();
     case DriveEnd::blocked:
       break;
   }
@@ -130,13 +169,43 @@ std::string Drive::see_rock(const DriveTrace& trace, Surroundings& around) {
   const std::string id = known.try_emplace(index, "rock-" + std::to_string(known.size() + 1)).first->second;
   if (seen_rocks_.insert(index).second) {
     const world::Rock& rock = around.environment.ground.hidden_rocks[index];
-    around.out.push_back(world::RockSeen{id, around.robot, rock.x, rock.y, rock.radius, trace.end});
+    around.out.push_back(
+        world::RockSeen{id, around.robot, rock.x, rock.y, rock.radius, trace.end, settings_.own_map});
   }
   return id;
 }
 
+std::map<std::string, temporal::Value> Drive::results() const {
+  std::map<std::string, temporal::Value> out{{"detours", last_detours_}};
+  if (settings_.motion.wheels <= 0) return out;
+  out.emplace("sinkage", sinkage_m_);
+  out.emplace("soil_slip", soil_slip_);
+  if (settings_.soil_sensor.instruments.empty()) return out;
+  out.emplace("soil_samples", static_cast<double>(soil_.samples));
+  out.emplace("soil_margin", soil_.least_margin);
+  return out;
+}
+
+// Marks a circle that begins at the place that was measured and lies ahead of the body, so that it stands outside; returns what the drive ends with.
+Failure Drive::mark_soil(const DriveTrace& trace, Surroundings& around) {
+  const SoilSensorSettings& sensor = settings_.soil_sensor;
+  const NoGo& no_go = *trace.no_go;
+  const double heading = trace.samples.back().pose.heading;
+  const terrain::Point centre{no_go.at.x + sensor.mark_radius_m * std::cos(heading),
+                              no_go.at.y + sensor.mark_radius_m * std::sin(heading)};
+  marked_.push_back({centre, sensor.mark_radius_m + kRim});
+  const std::string id = around.robot + "-soil-" + std::to_string(marked_.size());
+  around.out.push_back(world::SoilMarked{id, around.robot, no_go.instrument, sensor.judges_for, centre.x,
+                                         centre.y, sensor.mark_radius_m, trace.end, settings_.own_map});
+  std::ostringstream why;
+  why << std::fixed << std::setprecision(2) << "the " << no_go.instrument << " says No-Go for "
+      << sensor.judges_for << ": it would sink " << no_go.expected.sinkage_m << " m and need "
+      << no_go.expected.traction_share << " of the thrust that the soil gives; " << id << " marks the place";
+  return {"no-go", why.str()};
+}
+
 void Drive::halt(Time now, Surroundings& around) {
-  const bool moved = trace_.has_value() || detours_ > 0;
+  const bool moved = target_ && !target_->turns && (trace_.has_value() || detours_ > 0);
   settle(now, around.body);
   stand(moved ? settings_.stop_place : place_);
 }

@@ -23,8 +23,11 @@ constexpr double kSlipMemorySeconds = 8;  // correlation time of the slip's nois
 constexpr double kPatienceSeconds = 90;   // without progress for so long, the rover is stuck
 constexpr double kProgressMetres = 0.05;
 constexpr double kMaxSlip = 0.95;
+constexpr double kDigInSeconds = 20;  // of spinning wheels, after which the body is dug in for good
 
 double wrapped(double angle) { return std::remainder(angle, 2 * std::numbers::pi); }
+
+bool here_is(const Pose& pose, terrain::Point p) { return pose.x == p.x && pose.y == p.y; }
 
 double distance_to_segment(terrain::Point p, terrain::Point a, terrain::Point b) {
   const double dx = b.x - a.x;
@@ -37,8 +40,9 @@ double distance_to_segment(terrain::Point p, terrain::Point a, terrain::Point b)
 class DriveIntegration {
  public:
   DriveIntegration(const Ground& ground, const DriveParameters& parameters, const Pose& from,
-                   const std::vector<terrain::Point>& way, std::size_t first, RandomStream& noise)
-      : ground_(ground), p_(parameters), way_(way), noise_(noise) {
+                   const std::vector<terrain::Point>& way, std::size_t first, RandomStream& noise,
+                   SoilSensor* sensor)
+      : ground_(ground), p_(parameters), way_(way), noise_(noise), sensor_(sensor) {
     now_.pose = from;
     now_.next_waypoint = first;
     started_in_rock_ = in_rock();
@@ -54,6 +58,10 @@ class DriveIntegration {
       trace.samples.push_back(now_);
       trace.peak_power_w = std::max(trace.peak_power_w, power_w_);
     }
+    trace.deepest_sinkage_m = deepest_sinkage_m_;
+    trace.most_soil_slip = most_soil_slip_;
+    trace.no_go = no_go_;
+    if (sensor_) trace.soil = sensor_->record();
     const auto whole = static_cast<std::int64_t>(trace.samples.size()) - 2;
     trace.end = whole < 0 ? start : start + whole * kDriveStep + seconds(last_step);
     return trace;
@@ -64,6 +72,10 @@ class DriveIntegration {
   bool in_rock() const { return ground_.site->occupancy(here()) == terrain::Occupancy::occupied; }
 
   bool finished(DriveTrace& trace) {
+    if (no_go_) {
+      trace.outcome = DriveEnd::no_go;
+      return true;
+    }
     while (now_.next_waypoint + 1 < way_.size() &&
            terrain::distance(here(), way_[now_.next_waypoint]) < kPassedWaypoint) {
       ++now_.next_waypoint;
@@ -77,6 +89,7 @@ class DriveIntegration {
     if (trace.seen_rock) trace.outcome = DriveEnd::blocked;
     if (!trace.seen_rock && !started_in_rock_ && in_rock()) trace.outcome = DriveEnd::collision;
     if (!made_progress()) trace.outcome = DriveEnd::stuck;
+    if (spun_s_ >= kDigInSeconds) trace.outcome = DriveEnd::bogged;
     return trace.outcome != DriveEnd::arrived;
   }
 
@@ -127,7 +140,13 @@ class DriveIntegration {
     const double pitch =
         std::atan(gradient.east * std::cos(now_.pose.heading) + gradient.north * std::sin(now_.pose.heading));
     const double wheel = wheel_speed(slope);
-    const double speed = wheel * (1 - slip(pitch));
+    const Footing soil = footing_on_soil(pitch, slope);
+    const double speed = wheel * (1 - slip(pitch)) * (1 - soil.slip);
+    if (!soil.bears) {
+      spun_s_ += kStepSeconds;
+      use_power(p_.drive_electronics_w + soil.resistance_n * wheel / p_.drive_efficiency, kStepSeconds);
+      return kStepSeconds;
+    }
     const double distance = terrain::distance(here(), target);
     const bool last = now_.next_waypoint + 1 == way_.size();
     const bool arrives = last && distance <= speed * kStepSeconds;
@@ -140,8 +159,10 @@ class DriveIntegration {
       now_.pose.y += speed * dt * std::sin(now_.pose.heading);
     }
     const double force =
-        p_.weight_n * std::max(0.0, p_.rolling_resistance * std::cos(slope) + std::sin(pitch));
+        p_.weight_n * std::max(0.0, p_.rolling_resistance * std::cos(slope) + std::sin(pitch)) +
+        soil.resistance_n;
     use_power(p_.drive_electronics_w + force * wheel / p_.drive_efficiency, dt);
+    if (sensor_) no_go_ = sensor_->sense(ground_, now_.pose, std::abs(speed) * dt);
     return dt;
   }
 
@@ -160,6 +181,17 @@ class DriveIntegration {
     return std::clamp(mean * (1 + slip_noise_), -0.05, kMaxSlip);
   }
 
+  // Firm ground bears everything, and so does every ground of a body of which no wheels are known.
+  Footing footing_on_soil(double pitch, double slope) {
+    if (p_.wheels <= 0 || ground_.surface.soil.areas.empty()) return {};
+    const world::Soil* soil = world::soil_at(ground_.surface.soil, here());
+    if (!soil) return {};
+    const Footing out = footing(*soil, vehicle_of(p_), pitch, slope);
+    deepest_sinkage_m_ = std::max(deepest_sinkage_m_, out.sinkage_m);
+    most_soil_slip_ = std::max(most_soil_slip_, out.slip);
+    return out;
+  }
+
   void use_power(double watts, double dt) {
     power_w_ = watts;
     now_.energy_j += watts * dt;
@@ -169,12 +201,17 @@ class DriveIntegration {
   const DriveParameters& p_;
   const std::vector<terrain::Point>& way_;
   RandomStream& noise_;
+  SoilSensor* sensor_;
+  std::optional<NoGo> no_go_;
   DriveSample now_;
   bool started_in_rock_ = false;
   double slip_noise_ = 0;
   double power_w_ = 0;
   double best_distance_ = INFINITY;
   double waited_s_ = 0;
+  double spun_s_ = 0;
+  double deepest_sinkage_m_ = 0;
+  double most_soil_slip_ = 0;
 };
 
 }  // namespace
@@ -198,8 +235,28 @@ DriveSample DriveTrace::at(Time t) const {
 
 DriveTrace simulate_drive(const Ground& ground, const DriveParameters& parameters, Time start,
                           const Pose& from, const std::vector<terrain::Point>& way, std::size_t first,
-                          RandomStream& noise) {
-  return DriveIntegration(ground, parameters, from, way, first, noise).run(start);
+                          RandomStream& noise, SoilSensor* sensor) {
+  return DriveIntegration(ground, parameters, from, way, first, noise, sensor).run(start);
+}
+
+DriveTrace simulate_turn(const DriveParameters& p, Time start, const Pose& from, terrain::Point towards,
+                         RandomStream& noise) {
+  const double wanted = std::atan2(towards.y - from.y, towards.x - from.x);
+  const double rest = here_is(from, towards) ? 0 : wrapped(wanted - from.heading);
+  const double lasts = std::abs(rest) / p.turn_rate_rad_s;
+  const double drift = p.heading_noise * std::sqrt(lasts) * noise.normal();
+  DriveTrace trace;
+  trace.start = start;
+  trace.end = start + seconds(lasts);
+  trace.peak_power_w = p.turn_power_w;
+  const auto steps = static_cast<std::int64_t>(std::ceil(lasts / kStepSeconds));
+  for (std::int64_t i = 0; i <= steps; ++i) {
+    const double share = lasts > 0 ? std::min(1.0, static_cast<double>(i) * kStepSeconds / lasts) : 1.0;
+    DriveSample sample{from, p.turn_power_w * share * lasts};
+    sample.pose.heading = wrapped(from.heading + share * (rest + drift));
+    trace.samples.push_back(sample);
+  }
+  return trace;
 }
 
 }  // namespace roci::sim::components

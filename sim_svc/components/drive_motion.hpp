@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "sim_svc/components/soil_sensor.hpp"
+#include "sim_svc/components/terramechanics.hpp"
 #include "sim_svc/world/environment.hpp"
 #include "sim_svc/world/random_stream.hpp"
 #include "sim_svc/world/values.hpp"
@@ -27,9 +29,18 @@ struct DriveParameters {
   double drive_efficiency = 0.35;
   double drive_electronics_w = 28;
   double turn_power_w = 55;
+  double wheels = 0;              ///< how many; 0: it feels no soil
+  double wheel_width_m = 0.1;     ///< above 0
+  double wheel_diameter_m = 0.3;  ///< above 0
 };
 
-enum class DriveEnd { arrived, blocked, stuck, collision };
+/// Returns what of the parameters counts on soft soil.
+inline WheeledVehicle vehicle_of(const DriveParameters& p) {
+  return {p.weight_n, p.wheels, p.wheel_width_m, p.wheel_diameter_m};
+}
+
+/// `bogged`: soil did not bear the body, which digs itself in. `no_go`: its sensor says that another one must not follow.
+enum class DriveEnd { arrived, blocked, stuck, collision, bogged, no_go };
 
 /// Holds where the body is at one time of a drive.
 struct DriveSample {
@@ -47,6 +58,10 @@ struct DriveTrace {
   DriveEnd outcome = DriveEnd::arrived;
   std::optional<std::size_t> seen_rock;  ///< is with `blocked` an index into Ground::hidden_rocks
   double peak_power_w = 0;
+  double deepest_sinkage_m = 0;  ///< in soil
+  double most_soil_slip = 0;
+  std::optional<NoGo> no_go;  ///< with `no_go`
+  SoilRecord soil;            ///< of the sensor
 
   /// Interpolates linearly between two samples. Before the start it is the first, after the end the last
   /// sample.
@@ -56,10 +71,16 @@ struct DriveTrace {
 inline constexpr temporal::Duration kDriveStep{100000};
 
 /// Integrates the rover along the way-points: point turns, speed by slope, slip by pitch and noise, drift of
-/// the heading, electrical energy. The ground has a site; `way` has at least one point; `first` is the index
+/// the heading, electrical energy. In soil that bears it, a body with wheels slips and pushes by its footing
+/// (terramechanics.hpp) on top; where it does not, the wheels spin in place. `sensor` may be null. The ground has a site; `way` has at least one point; `first` is the index
 /// of the one it heads for.
 DriveTrace simulate_drive(const world::Ground&, const DriveParameters&, temporal::Time start,
                           const world::Pose& from, const std::vector<terrain::Point>& way, std::size_t first,
-                          world::RandomStream& noise);
+                          world::RandomStream& noise, SoilSensor* sensor = nullptr);
+
+/// Integrates a turn in place until the body heads for the point: at its turn rate, with the drift of the heading over
+/// that time. It ends `arrived`.
+DriveTrace simulate_turn(const DriveParameters&, temporal::Time start, const world::Pose& from,
+                         terrain::Point towards, world::RandomStream& noise);
 
 }  // namespace roci::sim::components

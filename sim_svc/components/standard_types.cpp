@@ -8,7 +8,7 @@
 #include "sim_svc/components/arm_settings.hpp"
 #include "sim_svc/components/camera.hpp"
 #include "sim_svc/components/direct_radio_settings.hpp"
-#include "sim_svc/components/drive.hpp"
+#include "sim_svc/components/drive_settings.hpp"
 #include "sim_svc/components/dynamic_arm.hpp"
 #include "sim_svc/components/dynamic_arm_settings.hpp"
 #include "sim_svc/components/grapple.hpp"
@@ -16,6 +16,7 @@
 #include "sim_svc/components/gripper.hpp"
 #include "sim_svc/components/laboratory.hpp"
 #include "sim_svc/components/laboratory_settings.hpp"
+#include "sim_svc/components/marker_camera.hpp"
 #include "sim_svc/components/radio.hpp"
 #include "sim_svc/components/sampling_arm.hpp"
 #include "sim_svc/components/sampling_arm_settings.hpp"
@@ -31,8 +32,6 @@ using setup::Settings;
 
 namespace {
 
-constexpr double kPositive = 1e-3;  // for what is divided by or would never end
-
 template <class Component, class ComponentSettings>
 world::MakeComponent making(ComponentSettings settings) {
   return [settings = std::move(settings)](world::RandomStream noise) {
@@ -40,30 +39,7 @@ world::MakeComponent making(ComponentSettings settings) {
   };
 }
 
-world::MakeComponent read_drive(Settings& in) {
-  DriveSettings out;
-  DriveParameters& p = out.motion;
-  p.radius_m = in.number("radius_m", p.radius_m);
-  p.wheel_speed_m_s = in.number("wheel_speed_m_s", p.wheel_speed_m_s, kPositive);
-  p.turn_rate_rad_s = in.number("turn_rate_rad_s", p.turn_rate_rad_s, kPositive);
-  p.slip = in.number("slip", p.slip);
-  p.uphill_slip = in.number("uphill_slip", p.uphill_slip);
-  p.slip_noise = in.number("slip_noise", p.slip_noise);
-  p.slope_slowdown = in.number("slope_slowdown", p.slope_slowdown);
-  p.heading_noise = in.number("heading_noise", p.heading_noise);
-  p.max_slope_deg = in.number("max_slope_deg", p.max_slope_deg, 1);
-  p.rock_sight_m = in.number("rock_sight_m", p.rock_sight_m);
-  p.weight_n = in.number("weight_n", p.weight_n);
-  p.rolling_resistance = in.number("rolling_resistance", p.rolling_resistance);
-  p.drive_efficiency = in.number("drive_efficiency", p.drive_efficiency, kPositive);
-  p.drive_electronics_w = in.number("drive_electronics_w", p.drive_electronics_w);
-  p.turn_power_w = in.number("turn_power_w", p.turn_power_w);
-  out.detours = in.number("detours", out.detours);
-  out.look_s = in.number("look_s", out.look_s, kPositive);
-  out.planner = in.text("planner", out.planner);
-  out.stop_place = in.text("stop_place", out.stop_place);
-  return making<Drive>(std::move(out));
-}
+world::MakeComponent read_drive(Settings& in) { return making<Drive>(read_drive_settings(in)); }
 
 world::MakeComponent read_arm(Settings& in) { return making<Arm>(read_arm_settings(in)); }
 
@@ -101,6 +77,21 @@ world::MakeComponent read_camera(Settings& in) {
   return making<Camera>(out);
 }
 
+world::MakeComponent read_marker_camera(Settings& in) {
+  MarkerCameraSettings out;
+  out.duration_s = in.number("duration_s", out.duration_s);
+  out.power_w = in.number("power_w", out.power_w);
+  out.mast_m = between(in, "mast_m", out.mast_m, 0.1, 20);
+  out.marker_m = between(in, "marker_m", out.marker_m, 0.01, 20);
+  out.least_range_m = between(in, "least_range_m", out.least_range_m, 0.01, 100);
+  out.most_range_m = between(in, "most_range_m", out.most_range_m, out.least_range_m, 100);
+  out.view_deg = between(in, "view_deg", out.view_deg, 5, 360);
+  out.miss_share = in.share("miss_share", out.miss_share);
+  out.range_noise = in.number("range_noise", out.range_noise);
+  out.heading_noise_rad = in.number("heading_noise_rad", out.heading_noise_rad);
+  return making<MarkerCamera>(out);
+}
+
 world::MakeComponent read_gripper(Settings& in) {
   GripperSettings out;
   out.pick_s = in.number("pick_s", out.pick_s);
@@ -130,6 +121,7 @@ setup::Registry standard_types() {
   out.add("dynamic_arm", {[](Settings& in) { return making<DynamicArm>(read_dynamic_arm_settings(in)); }});
   out.add("grapple", {[](Settings& in) { return making<Grapple>(read_grapple_settings(in)); }});
   out.add("camera", {read_camera, true});
+  out.add("marker_camera", {read_marker_camera, true});
   out.add("gripper", {read_gripper});
   out.add("radio", {read_radio});
   out.add("sampling_arm", {[](Settings& in) { return making<SamplingArm>(read_sampling_arm_settings(in)); },

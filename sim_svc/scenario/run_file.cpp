@@ -10,6 +10,7 @@
 #include "core/terrain/site_file.hpp"
 #include "sim_svc/scenario/body_conditions.hpp"
 #include "sim_svc/scenario/scenario_file.hpp"
+#include "sim_svc/scenario/soil_file.hpp"
 #include "sim_svc/scenario/surface_file.hpp"
 
 namespace roci::sim::scenario {
@@ -188,6 +189,9 @@ RunSetup load_run(const std::filesystem::path& mission_folder, const std::string
     if (mishap && stimulus.entry) check_mishap(*mishap, *stimulus.entry, run.world);
     const auto* block = disturbance ? std::get_if<world::ViewBlock>(disturbance) : nullptr;
     if (block && stimulus.entry) check_block(*block, *stimulus.entry, run.world);
+    const auto* change = disturbance ? std::get_if<world::SoilChange>(disturbance) : nullptr;
+    if (change && stimulus.entry)
+      check_soil(change->area.soil, stimulus.entry->at("soil"), run.world.ground.surface.soil);
     if (hollow && stimulus.entry) check_hollow(*hollow, *stimulus.entry, run.world);
   }
   return run;

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <fstream>
 #include <set>
 #include <utility>
 
 #include "sim_svc/scenario/body_stimuli_file.hpp"
 #include "sim_svc/scenario/file_values.hpp"
+#include "sim_svc/scenario/soil_file.hpp"
 
 namespace roci::sim::scenario {
 
@@ -110,7 +112,7 @@ ValueStimulus read_set(const Entry& entry) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   if (text == "true" || text == "false") {
     out.value = text == "true";
-  } else if (error == std::errc{} && end == text.data() + text.size()) {
+  } else if (error == std::errc{} && end == text.data() + text.size() && std::isfinite(number)) {
     out.value = number;
   } else {
     out.value = temporal::state(text);
@@ -206,14 +208,14 @@ Stimulus read_stimulus(const Entry& entry, const Roster& roster) {
                     "battery_to_j", "module_fails", "slot_blocked", "slow_joint",
                     "eclipse",      "network",      "parameter",    "trench_collapses",
                     "hollow",       "surroundings", "heat",         "set",
-                    "rate",         "blocked_view"});
+                    "rate",         "blocked_view", "soil"});
   const std::size_t frame = entry.find("robot") ? 2 : 1;
   if (entry.fields().size() != frame + 1) {
     entry.fail(
         "a stimulus is at_s (and robot) and one of goal, recall, hazard, fault, rock, battery_loss_j, "
         "battery_to_j, "
         "module_fails, slot_blocked, slow_joint, eclipse, network, parameter, trench_collapses, hollow, "
-        "surroundings, heat, rate, blocked_view, set; split it into several");
+        "surroundings, heat, rate, blocked_view, set, soil; split it into several");
   }
   Stimulus out;
   out.at = time_of(entry.at("at_s"));
@@ -222,11 +224,18 @@ Stimulus read_stimulus(const Entry& entry, const Roster& roster) {
   if (const auto hazard = entry.find("hazard")) out.what = read_hazard(*hazard);
   if (const auto network = entry.find("network")) out.what = read_network(*network);
   if (const auto parameter = entry.find("parameter")) out.what = read_parameter(*parameter);
-  if (const auto value = entry.find("set")) out.what = read_set(*value);
+  if (const auto value = entry.find("set")) {
+    out.what = read_set(*value);
+    out.entry = *value;
+  }
   if (const auto fault = entry.find("fault")) {
     out.what = Disturbance{read_fault(*fault, robot_of(entry, roster), out.at)};
   }
   if (const auto rock = entry.find("rock")) out.what = Disturbance{RockFall{read_rock(*rock)}};
+  if (const auto soil = entry.find("soil")) {
+    out.what = Disturbance{world::SoilChange{read_soil_area(*soil)}};
+    out.entry = *soil;
+  }
   if (const auto loss = entry.find("battery_loss_j")) {
     out.what = Disturbance{read_energy_loss(*loss, robot_of(entry, roster))};
   }

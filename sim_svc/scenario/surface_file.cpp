@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/words/nearest_word.hpp"
+#include "sim_svc/scenario/soil_file.hpp"
 
 namespace roci::sim::scenario {
 namespace {
@@ -58,9 +59,10 @@ world::Oddity read_oddity(const Entry& entry) {
 }  // namespace
 
 void read_surface(const Entry& entry, world::Surface& surface) {
-  entry.allow_only({"sun", "odd_per_hectare", "odd"});
+  entry.allow_only({"sun", "odd_per_hectare", "odd", "soils", "soil_areas", "scattered_soil"});
   if (const auto sun = entry.find("sun")) read_sun(*sun, surface.sun);
   take(entry, "odd_per_hectare", 0, 100, surface.odd_per_hectare);
+  read_soil(entry, surface.soil);
   const auto odd = entry.find("odd");
   if (!odd) return;
   surface.placed.clear();

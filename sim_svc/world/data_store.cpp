@@ -6,12 +6,22 @@
 
 namespace roci::sim::world {
 
+namespace {
+
+constexpr std::array<std::string_view, 4> kTiers{"critical", "decisional", "mandatory", "residual"};
+constexpr std::array<std::string_view, 6> kFates{"stored",    "sent",        "received",
+                                                 "discarded", "left-behind", "lost"};
+
+}  // namespace
+
 std::optional<Tier> tier_named(std::string_view name) {
-  static constexpr std::array<std::string_view, 4> kNames{"critical", "decisional", "mandatory", "residual"};
-  const auto found = std::ranges::find(kNames, name);
-  if (found == kNames.end()) return std::nullopt;
-  return static_cast<Tier>(found - kNames.begin());
+  const auto found = std::ranges::find(kTiers, name);
+  if (found == kTiers.end()) return std::nullopt;
+  return static_cast<Tier>(found - kTiers.begin());
 }
+
+std::string_view name_of(Tier tier) { return kTiers.at(static_cast<std::size_t>(tier)); }
+std::string_view name_of(Fate fate) { return kFates.at(static_cast<std::size_t>(fate)); }
 
 bool is_final(Fate fate) { return fate != Fate::stored && fate != Fate::sent; }
 

@@ -17,9 +17,13 @@ enum class Tier : std::uint8_t { critical, decisional, mandatory, residual };
 
 /// Returns the tier of that name, or nothing if there is none.
 std::optional<Tier> tier_named(std::string_view name);
+std::string_view name_of(Tier);
 
 /// Says what became of a product, in the order of idl/command.idl.
 enum class Fate : std::uint8_t { stored, sent, received, discarded, left_behind, lost };
+
+/// Returns "stored", "sent", "received", "discarded", "left-behind" or "lost".
+std::string_view name_of(Fate);
 
 /// Returns whether nothing can become of the product any more.
 bool is_final(Fate);

@@ -21,6 +21,11 @@ struct RockFall {
   Rock rock;
 };
 
+/// Lets a soil lie there from now on; the world knows soils of that name.
+struct SoilChange {
+  SoilArea area;
+};
+
 /// Takes energy from the robot's battery at once.
 struct EnergyLoss {
   std::string robot;
@@ -106,7 +111,7 @@ struct ViewBlock {
 
 using Disturbance =
     std::variant<ComponentFault, RockFall, EnergyLoss, GenerationLoss, ComponentMishap, HollowSuccess,
-                 EnergyDrop, SurroundingsChange, SuddenHeat, RateChange, ViewBlock>;
+                 EnergyDrop, SurroundingsChange, SuddenHeat, RateChange, ViewBlock, SoilChange>;
 
 /// Returns whether it would be another one if it came twice. What has happened to a robot is part of its world's memory, so
 /// that such a disturbance does not come again when the process that simulates it is started again.

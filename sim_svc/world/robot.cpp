@@ -301,6 +301,11 @@ void Robot::leave_behind(Outputs& out) {
     if (one.fate == Fate::stored) out.push_back(*body_.data->set_fate(one.id, Fate::left_behind));
 }
 
+bool Robot::has_data_under_way() const {
+  return body_.data && std::ranges::find(body_.data->products(), Fate::sent, &Product::fate) !=
+                           body_.data->products().end();
+}
+
 void Robot::note_deeds(const Part& one, const TaskKey& cause, Time now, Surroundings& surroundings) {
   for (Deed& deed : surroundings.deeds)
     surroundings.environment.effects.push_back({now, name_, one.name, std::move(deed), cause});

@@ -80,12 +80,16 @@ class Robot {
   Robot(RobotSetup, bool first, std::uint64_t seed);
 
   const std::string& name() const { return name_; }
+  /// Returns where it stands on the map, if it does, at the time up to which it was settled.
+  const std::optional<Pose>& pose() const { return body_.pose; }
   std::string component_names() const;  ///< "nav, arm, …"
   bool runs(const TaskKey&) const;
   /// At the time up to which the robot was settled.
   RobotMemory memory(temporal::Time now) const;
   /// Before the first task; the memory is of `at`.
   void restore(const RobotMemory&, temporal::Time at);
+  /// Returns whether it has sent data that are not received yet.
+  bool has_data_under_way() const;
   /// Returns when a task ends or numbers are due.
   temporal::Time next_change() const;
   /// Returns when the battery will be empty if everything goes on at its peak power, or nothing if never.

@@ -1,10 +1,12 @@
-/// How the ground looks to a camera: what lights it, and what on it is unlike the rest. Nobody drives differently for it.
+/// How the ground looks to a camera (what lights it, and what on it is unlike the rest; nobody drives differently for it),
+/// and the soil that no camera sees.
 #pragma once
 #include <cstdint>
 #include <vector>
 
 #include "core/temporal/duration.hpp"
 #include "core/terrain/grid.hpp"
+#include "sim_svc/world/soil.hpp"
 
 namespace roci::sim::world {
 
@@ -40,12 +42,13 @@ struct Oddity {
   bool operator==(const Oddity&) const = default;
 };
 
-/// Says how the ground looks.
+/// Says how the ground looks, and how it bears.
 struct Surface {
   Sun sun;
   double odd_per_hectare = 0;  ///< targets that the seed scatters, 0 … 100
   std::vector<Oddity> placed;  ///< targets beside them
   std::uint64_t seed = 1;      ///< of textures and scattered targets; a world sets it to its own
+  SoilLayer soil;
 };
 
 /// Returns the targets whose centres lie within `reach` metres of a point, the placed ones first: the same for the same

@@ -126,7 +126,22 @@ struct RockSeen {
   double y = 0;       ///< m
   double radius = 0;  ///< m
   temporal::Time at{};
+  bool own_map = false;  ///< it goes on the robot's own map alone, and not on everybody's
   bool operator==(const RockSeen&) const = default;
+};
+
+/// Is ground that a robot has measured and that somebody must not drive over, as a circle.
+struct SoilMarked {
+  std::string id;
+  std::string robot;  ///< that has found it
+  std::string instrument;
+  std::string judged_for;  ///< who must not go there
+  double x = 0;            ///< m
+  double y = 0;            ///< m
+  double radius = 0;       ///< m
+  temporal::Time at{};
+  bool own_map = false;  ///< as of RockSeen
+  bool operator==(const SoilMarked&) const = default;
 };
 
 /// Says that a drive waits for way-points (World::answer with a Way or a Failure).
@@ -154,7 +169,8 @@ struct MotionWanted {
 };
 
 /// A Product says what has become of it by now.
-using Output = std::variant<TaskReport, Observed, Image, RockSeen, PathWanted, MotionWanted, Product>;
+using Output =
+    std::variant<TaskReport, Observed, Image, RockSeen, PathWanted, MotionWanted, Product, SoilMarked>;
 using Outputs = std::vector<Output>;
 
 // Other services answer a component's wish with these.

@@ -35,6 +35,7 @@ void check_unique(const std::vector<Named>& all, const std::string& what) {
 World::World(WorldSetup setup, std::uint64_t seed)
     : environment_{std::move(setup.ground), std::move(setup.windows), {}, {}, {}} {
   environment_.ground.surface.seed = seed;
+  scatter(environment_.ground.surface.soil, seed);
   check_unique(setup.robots, "robots");
   for (RobotSetup& robot : setup.robots) {
     check_unique(robot.components, "components of '" + robot.name + "'");
@@ -132,6 +133,10 @@ void World::apply(Time now, const Disturbance& disturbance) {
               environment_.ground.hidden_rocks.push_back(fall.rock);
               for (Robot& one : robots_) one.ground_changed(now, environment_, out_);
             },
+            [&](const SoilChange& change) {
+              environment_.ground.surface.soil.areas.push_back(change.area);
+              for (Robot& one : robots_) one.ground_changed(now, environment_, out_);
+            },
             [&](const EnergyLoss& loss) {
               with(loss.robot, [&](Robot& one) { one.lose_energy(loss.joules); });
               settle(now);
@@ -184,6 +189,10 @@ std::optional<Time> World::next_change() const {
   return best;
 }
 
+bool World::has_data_under_way() const {
+  return std::ranges::any_of(robots_, [](const Robot& one) { return one.has_data_under_way(); });
+}
+
 Time World::next_event() const {
   std::optional<Time> best = next_tick();
   for (const Robot& one : robots_) keep_earlier(best, one.next_change());
@@ -204,6 +213,8 @@ void World::advance_to(Time now) {
 
 void World::settle(Time t) {
   for (Robot& one : robots_) one.settle(now_, t, environment_, out_);
+  for (const Robot& one : robots_)
+    if (one.pose()) environment_.poses[one.name()] = *one.pose();
   now_ = t;
 }
 

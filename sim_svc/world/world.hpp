@@ -70,6 +70,9 @@ class World {
   /// then, either.
   std::optional<temporal::Time> next_change() const;
 
+  /// Returns whether data were sent that are not received yet.
+  bool has_data_under_way() const;
+
   /// Returns the commands that components took up since the last call, in order.
   std::vector<Begun> take_begun() { return std::exchange(begun_, {}); }
   /// Returns what the components have done since the last call, in order.

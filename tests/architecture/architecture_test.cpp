@@ -10,9 +10,9 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-const std::vector<std::string> kFolders = {"core",           "services", "planner_svc", "exec_svc",
-                                           "pathplan_svc",   "arm_svc",  "science_svc", "sim_svc",
-                                           "ground_console", "rehearsal"};
+const std::vector<std::string> kFolders = {"core",         "services",       "planner_svc", "exec_svc",
+                                           "pathplan_svc", "dedicated_svc",  "arm_svc",     "science_svc",
+                                           "sim_svc",      "ground_console", "rehearsal"};
 
 TEST(ArchitectureTest, TheTreeKeepsItsRules) {
   const auto files = read_sources(ROCI_SOURCE_DIR, kFolders);

@@ -10,8 +10,8 @@ namespace roci::architecture {
 namespace {
 
 constexpr std::size_t kLongestFile = 600;
-const std::vector<std::string> kProcesses = {"planner_svc", "exec_svc", "pathplan_svc",  "arm_svc",
-                                             "science_svc", "sim_svc",  "ground_console"};
+const std::vector<std::string> kProcesses = {"planner_svc", "exec_svc",    "pathplan_svc", "dedicated_svc",
+                                             "arm_svc",     "science_svc", "sim_svc",      "ground_console"};
 
 bool any_prefix(const std::string& text, const std::vector<std::string>& prefixes) {
   return std::any_of(prefixes.begin(), prefixes.end(),

@@ -16,7 +16,7 @@ TAIL = 700  # characters of source in which a message is put together
 def code_of(root):
     """The literals of each file as one text; what stands between them is one blank line, or nothing between adjacent ones."""
     texts = []
-    for folder in ("core", "services", "planner_svc", "exec_svc", "pathplan_svc", "arm_svc", "science_svc", "sim_svc",
+    for folder in ("core", "services", "planner_svc", "exec_svc", "pathplan_svc", "dedicated_svc", "arm_svc", "science_svc", "sim_svc",
                    "ground_console", "rehearsal", "cmake"):
         for file in sorted((root / folder).rglob("*")):
             if file.suffix == ".sh":

@@ -7,7 +7,7 @@ import sys
 
 BLOCK = re.compile(r"^```\w+\n(?:#|;) (\w[\w./-]*/[\w.-]+)\n(.*?)^```$", re.M | re.S)
 SOURCES = [".cpp", ".hpp", ".idl", ".sh", ".cmake"]
-PARTS = ["core", "services", "planner_svc", "exec_svc", "pathplan_svc", "arm_svc", "science_svc", "sim_svc", "ground_console",
+PARTS = ["core", "services", "planner_svc", "exec_svc", "pathplan_svc", "dedicated_svc", "arm_svc", "science_svc", "sim_svc", "ground_console",
          "rehearsal", "idl", "cmake", "example_service"]
 
 

@@ -1,5 +1,5 @@
-// The Europa lander with what MEXEC names as uncertain (section IV.C.3), one flight for each of its five groups: whatever befalls it, the
-// mission comes to its end, and goes on with what is still possible (R117).
+// The Europa lander with what MEXEC names as uncertain (section IV.C.3), a flight for each of its five groups, and one for an excavation
+// that comes to nothing: whatever befalls it, the mission comes to its end, and goes on with what is still possible (R117).
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -64,7 +64,15 @@ TEST_F(EuropaInjectors, ExcavationThatIsSlowStopsAndIsUndone) {
            "  - {at_s: 40000, trench_collapses: {site: \"1\", share: 0.3}}\n");
   EXPECT_THAT(journal(), HasSubstr("too-hard"));
   EXPECT_THAT(deeds_, Not(Contains(StartsWith("collect 0 "))));
-  EXPECT_GE(count("analyze"), 1);
+  EXPECT_THAT(deeds_, Contains(StartsWith("collect 1 ")));
+  EXPECT_THAT(deeds_, Contains(StartsWith("collect 2 "))) << "the site that was given up holds up no other";
+}
+
+// The arm says that it has dug and has not: the post condition of the excavation tells.
+TEST_F(EuropaInjectors, AnExcavationThatIsHollowIsDugAgain) {
+  fly_with("{}", "  - {at_s: 61, hollow: {component: arm, command: excavate}}\n");
+  EXPECT_GT(count("excavate 1"), 1);
+  EXPECT_THAT(deeds_, Contains(StartsWith("collect 1 ")));
 }
 
 // More waste heat, larger losses, a zone that is cooled at once, and surroundings that get colder.

@@ -197,14 +197,13 @@ void Block::knots(const Course& at_first, Micros closing, std::vector<Knot>& kno
   }
 }
 
-void Block::summarize(const Bounds& range, const Course& at_first, Micros closing) const {
-  std::vector<Knot> knots;
-  this->knots(at_first, closing, knots);
+void Block::summarize(const Bounds& range, const Course& at_first, Micros closing,
+                      std::span<const Knot> knots) const {
   summary_ = Summary{};
   const auto see = [&](Exact value) {
     summary_.lowest = std::min(summary_.lowest, value);
     summary_.highest = std::max(summary_.highest, value);
-    if (range.states != 0) summary_.states |= std::uint64_t{1} << static_cast<int>(value / kUnit & 63);
+    if (range.states != 0) summary_.states |= std::uint64_t{1} << (state_of(value) & 63);
   };
   const auto keep = [&](const Bounds& bounds, Exact value) {
     summary_.fine = summary_.fine && bounds.admits(value);
@@ -230,21 +229,18 @@ void Block::summarize(const Bounds& range, const Course& at_first, Micros closin
   summarized_to_ = closing;
 }
 
-const Summary& Block::summary(const Bounds& range, const Course& at_first, Micros closing) const {
+bool Block::summarized(const Bounds& range, const Course& at_first, Micros closing) const {
+  if (!summarized_ || at_first.rate != summarized_at_.rate || closing != summarized_to_) return false;
   const Exact shift = at_first.value - summarized_at_.value;
-  const bool straight = at_first.rate == summarized_at_.rate && closing == summarized_to_;
-  if (summarized_ && straight && shift == 0) return summary_;
-  if (!summarized_ || !straight || range.states != 0 || resets() || !summary_.fine) {
-    summarize(range, at_first, closing);
-    return summary_;
-  }
+  if (shift == 0) return true;
+  if (range.states != 0 || resets() || !summary_.fine) return false;
+  if (summary_.room_below + shift < 0 || summary_.room_above - shift < 0) return false;
   summary_.room_below += shift;
   summary_.room_above -= shift;
   summary_.lowest += shift;
   summary_.highest += shift;
   summarized_at_.value = at_first.value;
-  if (summary_.room_below < 0 || summary_.room_above < 0) summarize(range, at_first, closing);
-  return summary_;
+  return true;
 }
 
 }  // namespace roci::temporal::timelines

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/temporal/timelines/event.hpp"
@@ -47,8 +48,12 @@ class Block {
   /// Appends the knots: the first stands at first(), the last at `closing`. That one has only what acts before the instant, unless this is
   /// the last block, which holds what happens at the end of the timeline, too.
   void knots(const Course& at_first, Micros closing, std::vector<Knot>& knots) const;
-  /// Returns the summary; O(1) when it is known but for a shift of all values.
-  const Summary& summary(const Bounds& range, const Course& at_first, Micros closing) const;
+  /// Returns whether summary() holds for this course; O(1), also where all values have shifted.
+  bool summarized(const Bounds& range, const Course& at_first, Micros closing) const;
+  /// Makes the summary anew from the block's knots for this course.
+  void summarize(const Bounds& range, const Course& at_first, Micros closing,
+                 std::span<const Knot> knots) const;
+  const Summary& summary() const { return summary_; }
 
  private:
   /// Is what the block makes of a course: from `reset` on (else from the first instant) these sums.
@@ -64,7 +69,6 @@ class Block {
   };
   void changed();
   const Sum& sum() const;
-  void summarize(const Bounds& range, const Course& at_first, Micros closing) const;
 
   Micros first_;
   std::size_t own_asks_ = 0;  ///< those that begin here

@@ -37,6 +37,14 @@ struct Event {
   Exact amount = 0;         ///< of a rate: per microsecond
 };
 
+/// Returns the state that a value of a state timeline stands for; any number of 64 and more for other values.
+constexpr int state_of(Exact value) {
+  // 64 states fit into 64 bits, whose division is a hundred times as fast.
+  return value >= 0 && value < 64 * kUnit
+             ? static_cast<int>(static_cast<std::int64_t>(value) / static_cast<std::int64_t>(kUnit))
+             : 64;
+}
+
 /// Are the values that are asked for: between two numbers, or one of the states whose bits are set.
 struct Bounds {
   Exact lowest = -kBeyond;
@@ -44,7 +52,8 @@ struct Bounds {
   std::uint64_t states = 0;
   bool admits(Exact value) const {
     if (states == 0) return lowest <= value && value <= highest;
-    return value >= 0 && value < 64 * kUnit && (states >> static_cast<int>(value / kUnit) & 1) != 0;
+    const int state = state_of(value);
+    return state < 64 && (states >> state & 1) != 0;
   }
 };
 

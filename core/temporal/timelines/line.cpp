@@ -25,7 +25,10 @@ const Course& Line::course(std::size_t i) const {
   return courses_[i];
 }
 
-void Line::changed(std::size_t i) { known_ = std::min(known_, i + 1); }
+void Line::changed(std::size_t i) {
+  known_ = std::min(known_, i + 1);
+  forget_knots();
+}
 
 void Line::split(std::size_t i) {
   std::optional<Block> later = blocks_[i].split();
@@ -63,6 +66,7 @@ void Line::erase(const Ask& ask) {
   for (std::size_t i = first; i < blocks_.size() && (i == first || blocks_[i].first() <= ask.to.time); ++i)
     blocks_[i].erase(ask);
   --asks_;
+  forget_knots();
 }
 
 void Line::amend(Exact value, Exact rate) {
@@ -85,6 +89,7 @@ void Line::fold(Micros now) {
   before.swap(blocks_);
   courses_.assign(1, course);
   known_ = 1;
+  forget_knots();
   events_ = asks_ = 0;
   past_ = now;
   const Position edge{now, Side::before};
@@ -106,7 +111,19 @@ Exact Line::value(Position at) const {
 }
 
 const Summary& Line::summary(std::size_t i) const {
-  return blocks_[i].summary(range_, course(i), closing(i));
+  const Block& block = blocks_[i];
+  if (!block.summarized(range_, course(i), closing(i)))
+    block.summarize(range_, course(i), closing(i), knots(i));
+  return block.summary();
+}
+
+std::span<const Knot> Line::knots(std::size_t i) const {
+  if (knots_of_ != i) {
+    knots_.clear();
+    blocks_[i].knots(course(i), closing(i), knots_);
+    knots_of_ = i;
+  }
+  return knots_;
 }
 
 void Line::knots(std::size_t first, std::size_t last, std::vector<Knot>& knots) const {

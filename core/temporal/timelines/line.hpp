@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "core/temporal/timelines/block.hpp"
@@ -47,6 +48,9 @@ class Line {
   /// Returns the instant of the next block, or the end of the timeline.
   Micros closing(std::size_t i) const { return i + 1 < blocks_.size() ? blocks_[i + 1].first() : end_; }
   const Summary& summary(std::size_t i) const;
+  /// Returns the knots of one block: the first stands at its beginning, the last at its closing. They hold until the line changes or
+  /// another block is asked for.
+  std::span<const Knot> knots(std::size_t i) const;
   /// Replaces `knots` by those of the blocks from `first` to `last`: the first stands at the beginning of the first block, the last at the
   /// closing of the last one, with what acts before that instant alone unless it is the end of the timeline.
   void knots(std::size_t first, std::size_t last, std::vector<Knot>& knots) const;
@@ -54,6 +58,7 @@ class Line {
  private:
   const Course& course(std::size_t i) const;
   void changed(std::size_t i);
+  void forget_knots() { knots_of_ = kNone; }
   void split(std::size_t i);
 
   Bounds range_;
@@ -65,6 +70,9 @@ class Line {
   std::vector<Block> blocks_;
   mutable std::vector<Course> courses_;  ///< at the beginning of each block
   mutable std::size_t known_ = 1;        ///< so many of them hold
+  static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+  mutable std::vector<Knot> knots_;  ///< of one block, since most questions are about the same
+  mutable std::size_t knots_of_ = kNone;
 };
 
 }  // namespace roci::temporal::timelines

@@ -51,15 +51,16 @@ Hull change_within(const Effect& effect, Stretch window, Stretch times, bool res
 std::uint64_t states_of(const Effect& effect) {
   std::uint64_t states = 0;
   for (const Effect::Step* step : {&effect.start, &effect.end})
-    if (step->assign) states |= std::uint64_t{1} << static_cast<int>(*step->assign / kUnit & 63);
+    if (step->assign) states |= std::uint64_t{1} << (state_of(*step->assign) & 63);
   return states;
 }
 
 /// Looks block by block, and only into those in which the task could break something.
 class BlockByBlock {
  public:
-  BlockByBlock(const Line& line, const Effect& effect, Stretch window, std::vector<Stretch>& bad)
-      : line_(line), effect_(effect), window_(window), search_(line, effect, window, bad) {}
+  BlockByBlock(const Line& line, const Effect& effect, Stretch window, std::vector<Stretch>& bad,
+               Scratch& scratch)
+      : line_(line), effect_(effect), window_(window), search_(line, effect, window, bad, scratch) {}
 
   void keep(std::span<const Constraint* const> own) {
     const bool harmless = effect_.none();
@@ -121,14 +122,14 @@ class BlockByBlock {
 }  // namespace
 
 void find_bad_starts(const Line& line, const Effect& effect, std::span<const Constraint* const> own,
-                     Stretch window, std::vector<Stretch>& bad) {
+                     Stretch window, std::vector<Stretch>& bad, Scratch& scratch) {
   const bool assigns = effect.start.assign || effect.end.assign;
   if (!assigns || line.range().states != 0) {
-    BlockByBlock(line, effect, window, bad).keep(own);
+    BlockByBlock(line, effect, window, bad, scratch).keep(own);
     return;
   }
   // What an assigned number replaces is looked up far from where it matters: all at once.
-  StartSearch search(line, effect, window, bad);
+  StartSearch search(line, effect, window, bad, scratch);
   const std::size_t first = line.block_of(window.first);
   search.enter(first, line.blocks() - 1);
   for (const Constraint* constraint : own) search.keep(*constraint, bounds_of(*constraint));

@@ -16,7 +16,12 @@ Stretch common(Stretch a, Stretch b) { return {std::max(a.first, b.first), std::
 }  // namespace
 
 void StartSearch::enter(std::size_t first, std::size_t last) {
-  line_.knots(first, last, knots_);
+  if (first == last) {
+    knots_ = line_.knots(first);
+  } else {
+    line_.knots(first, last, joined_);
+    knots_ = joined_;
+  }
   count_ = knots_.size() - (last + 1 < line_.blocks() ? 1 : 0);
 }
 
@@ -92,7 +97,8 @@ void StartSearch::in_pieces(const Bounds& bounds, Stretch starts, ValueAt value_
     const Micros last = std::min(cut - 1, starts.last);
     if (last < first) continue;
     const Exact value = value_at(first);
-    const Exact rate = last > first ? (value_at(last) - value) / (last - first) : 0;
+    const Exact rise = last > first ? value_at(last) - value : 0;
+    const Exact rate = rise == 0 ? 0 : rise / (last - first);
     const Outside out = outside(bounds, value, rate, {first, last});
     bad_.insert(bad_.end(), out.parts.begin(), out.parts.begin() + static_cast<std::ptrdiff_t>(out.count));
     first = last + 1;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "core/temporal/timelines/effect.hpp"
@@ -9,13 +10,28 @@
 
 namespace roci::temporal::timelines {
 
+/// Is room to work in, which is kept from question to question.
+struct Scratch {
+  std::vector<Knot> knots;
+  std::vector<Micros> cuts;
+  std::vector<Stretch> bad;
+};
+
 /// Finds starts of a task at which bounds on a timeline would be broken. What the task does to the value at any place is, between few starts
 /// at which it changes its form, a straight function of the start: bad starts are unions of intervals.
 class StartSearch {
  public:
-  /// Appends to `bad` the bad starts within `window`.
-  StartSearch(const Line& line, const Effect& effect, Stretch window, std::vector<Stretch>& bad)
-      : line_(line), effect_(effect), window_(window), bad_(bad) {}
+  /// Appends to `bad` the bad starts within `window`. The line does not change meanwhile; what stands in `scratch` is of no account.
+  StartSearch(const Line& line, const Effect& effect, Stretch window, std::vector<Stretch>& bad,
+              Scratch& scratch)
+      : line_(line),
+        effect_(effect),
+        window_(window),
+        bad_(bad),
+        joined_(scratch.knots),
+        cuts_(scratch.cuts) {
+    cuts_.clear();
+  }
 
   /// Looks from here on at the blocks from `first` to `last`.
   void enter(std::size_t first, std::size_t last);
@@ -61,9 +77,10 @@ class StartSearch {
   const Effect& effect_;
   Stretch window_;
   std::vector<Stretch>& bad_;
-  std::vector<Knot> knots_;
-  std::size_t count_ = 0;     ///< of knots to look at; one more may close the last stretch
-  std::vector<Micros> cuts_;  ///< starts at which the value changes its form
+  std::span<const Knot> knots_{};
+  std::size_t count_ = 0;      ///< of knots to look at; one more may close the last stretch
+  std::vector<Knot>& joined_;  ///< knots of several blocks
+  std::vector<Micros>& cuts_;  ///< starts at which the value changes its form
 };
 
 }  // namespace roci::temporal::timelines

@@ -12,6 +12,7 @@
 #include "core/temporal/duration.hpp"
 #include "core/temporal/timelines/definition.hpp"
 #include "core/temporal/timelines/line.hpp"
+#include "core/temporal/timelines/start_search.hpp"
 
 namespace roci::temporal::timelines {
 
@@ -139,7 +140,6 @@ class Timelines {
   void each_event(TaskId id, const Task& task, Do change) const;
   template <class Do>
   void each_ask(TaskId id, const Task& task, Do change) const;
-  std::vector<Stretch> bad_starts(const Footprint& footprint, Stretch window) const;
   Stretch possible_starts(const Footprint& footprint, Interval window) const;
   void forget_log();
   Task& find(TaskId id);
@@ -153,6 +153,7 @@ class Timelines {
   std::unordered_map<TaskId, Task> tasks_;
   std::vector<Change> log_;
   std::size_t forgotten_ = 0;
+  mutable Scratch scratch_;
 };
 
 }  // namespace roci::temporal::timelines

@@ -1,19 +1,31 @@
 #include <algorithm>
 
 #include "core/temporal/timelines/check.hpp"
+#include "core/temporal/timelines/effect.hpp"
 #include "core/temporal/timelines/placement.hpp"
 #include "core/temporal/timelines/timelines.hpp"
 
 namespace roci::temporal::timelines {
 namespace {
 
-/// Returns the timelines that a task touches, each once.
-std::vector<Index> touched_by(const Footprint& footprint) {
-  std::vector<Index> touched;
-  for (const Impact& impact : footprint.impacts) touched.push_back(impact.timeline);
-  for (const Constraint& constraint : footprint.constraints) touched.push_back(constraint.timeline);
-  std::ranges::sort(touched);
-  touched.erase(std::ranges::unique(touched).begin(), touched.end());
+/// Is what a task does to one timeline and asks of it.
+struct Touch {
+  Index timeline = 0;
+  Effect effect;
+  std::vector<const Constraint*> own;
+};
+
+/// Returns the timelines that a task touches, each once; first those of which it asks something, since they refuse most.
+std::vector<Touch> touched_by(const Footprint& footprint) {
+  std::vector<Touch> touched;
+  const auto of = [&](Index timeline) -> Touch& {
+    const auto known = std::ranges::find(touched, timeline, &Touch::timeline);
+    if (known != touched.end()) return *known;
+    return touched.emplace_back(Touch{timeline, effect_on(timeline, footprint), {}});
+  };
+  for (const Constraint& constraint : footprint.constraints)
+    of(constraint.timeline).own.push_back(&constraint);
+  for (const Impact& impact : footprint.impacts) of(impact.timeline);
   return touched;
 }
 
@@ -30,20 +42,17 @@ std::vector<Interval> without(Stretch window, std::vector<Stretch>& bad) {
   return left;
 }
 
-}  // namespace
-
-/// Returns the starts within `window` at which the task would break something, in no order.
-std::vector<Stretch> Timelines::bad_starts(const Footprint& footprint, Stretch window) const {
-  std::vector<Stretch> bad;
-  std::vector<const Constraint*> own;
-  for (const Index timeline : touched_by(footprint)) {
-    own.clear();
-    for (const Constraint& constraint : footprint.constraints)
-      if (constraint.timeline == timeline) own.push_back(&constraint);
-    find_bad_starts(lines_[timeline], effect_on(timeline, footprint), own, window, bad);
+/// Returns the first time from `first` on that no bad stretch covers.
+Micros first_without(Micros first, std::vector<Stretch>& bad) {
+  std::ranges::sort(bad, {}, &Stretch::first);
+  for (const Stretch& stretch : bad) {
+    if (stretch.first > first) break;
+    first = std::max(first, stretch.last + 1);
   }
-  return bad;
+  return first;
 }
+
+}  // namespace
 
 /// Returns the part of the window in which the task lies between the past and the end; it may be empty.
 Stretch Timelines::possible_starts(const Footprint& footprint, Interval window) const {
@@ -55,19 +64,45 @@ Stretch Timelines::possible_starts(const Footprint& footprint, Interval window) 
 std::vector<Interval> Timelines::valid_starts(const Footprint& footprint, Interval window) const {
   const Stretch starts = possible_starts(footprint, window);
   if (starts.last < starts.first) return {};
-  std::vector<Stretch> bad = bad_starts(footprint, starts);
+  std::vector<Stretch>& bad = scratch_.bad;
+  bad.clear();
+  for (const Touch& touch : touched_by(footprint))
+    find_bad_starts(lines_[touch.timeline], touch.effect, touch.own, starts, bad, scratch_);
   return without(starts, bad);
 }
 
+// A start that one timeline refuses is not looked at on the others: so short timelines are asked about the whole window first, and long ones
+// only from there on, in parts of the window that grow. Most tasks find their place in the first, and the last cost no more than the whole.
 std::optional<Time> Timelines::first_valid_start(const Footprint& footprint, Interval window) const {
-  const Stretch starts = possible_starts(footprint, window);
-  // Parts of the window that grow: most tasks find their place in the first, and the last cost no more than the whole.
+  constexpr std::size_t kShort = 2;  // blocks
+  Stretch starts = possible_starts(footprint, window);
+  if (starts.last < starts.first) return std::nullopt;
+  const std::vector<Touch> touched = touched_by(footprint);
+  std::vector<Stretch>& bad = scratch_.bad;
+  bad.clear();
+  const auto refuse = [&](const Touch& touch, Stretch part) {
+    find_bad_starts(lines_[touch.timeline], touch.effect, touch.own, part, bad, scratch_);
+    return first_without(part.first, bad);
+  };
+  bool any_long = false;
+  for (const Touch& touch : touched) {
+    const bool is_long = lines_[touch.timeline].blocks() > kShort;
+    any_long |= is_long;
+    if (!is_long) starts.first = refuse(touch, starts);
+    if (starts.first > starts.last) return std::nullopt;
+  }
+  if (!any_long) return Time{starts.first};
+  const std::vector<Stretch> by_short = bad;
   Micros length = std::max<Micros>((starts.last - starts.first) / 64, 1);
   for (Micros first = starts.first; first <= starts.last; first += length + 1, length *= 4) {
-    const Stretch part{first, std::min(first + length, starts.last)};
-    std::vector<Stretch> bad = bad_starts(footprint, part);
-    const std::vector<Interval> valid = without(part, bad);
-    if (!valid.empty()) return valid.front().earliest;
+    Stretch part{first, std::min(first + length, starts.last)};
+    bad = by_short;
+    part.first = first_without(part.first, bad);
+    for (const Touch& touch : touched) {
+      if (part.first > part.last) break;
+      if (lines_[touch.timeline].blocks() > kShort) part.first = refuse(touch, part);
+    }
+    if (part.first <= part.last) return Time{part.first};
   }
   return std::nullopt;
 }

@@ -38,7 +38,7 @@ std::optional<std::uint32_t> index_of(const Items& items, const std::string& nam
 
 // Takes over what was found out: what is done, values that are no priors, and timelines as they are now.
 cycle::Past past_for(const Network& next, const Network& before, const cycle::Cycle& cycle, Time now) {
-  cycle::Past out{{}, model::priors(next), {}};
+  cycle::Past out{.values = model::priors(next)};
   for (const model::TaskIndex task : cycle.past().done)
     if (const auto same = index_of(next.tasks, before.tasks[task].id, &model::Task::id))
       out.done.insert(*same);

@@ -45,17 +45,6 @@ std::vector<double> values_now(const Situation& at) {
   return out;
 }
 
-// Returns the requests that are done, failed for good or withdrawn.
-std::vector<model::TaskIndex> closed_requests(const Situation& at) {
-  std::set<model::TaskIndex> open;
-  for (const model::TaskIndex task : at.cycle.waiting()) open.insert(task);
-  for (const Block& one : at.cycle.blocks()) open.insert(at.chains.chains[one.chain].task);
-  std::set<model::TaskIndex> out;
-  for (const flattening::Chain& chain : at.chains.chains)
-    if (!open.contains(chain.task)) out.insert(chain.task);
-  return {out.begin(), out.end()};
-}
-
 ChainStage stage_of(const Block& block) {
   if (block.failed()) return ChainStage::failed;
   if (block.over()) return ChainStage::done;
@@ -129,7 +118,7 @@ void add_subway(const Situation& at, MissionOutlook& out) {
   const auto& map = at.network.subway;
   if (map.sites.empty()) return;
   const std::vector<double> now = values_now(at);
-  const std::vector<model::TaskIndex> closed = closed_requests(at);
+  const std::vector<model::TaskIndex> closed = at.cycle.closed(at.now);
   const std::set<model::TaskIndex> gone(closed.begin(), closed.end());
   std::set<model::TaskIndex> planned;
   for (const Block& one : at.cycle.blocks()) planned.insert(at.chains.chains[one.chain].task);
@@ -212,7 +201,7 @@ void Outlooks::forgotten(const Situation& after, const std::vector<Block>& begun
 void Outlooks::add_chains(const Situation& at, MissionOutlook& out) {
   out.chains = ended_;
   const std::vector<double> now = values_now(at);
-  const std::vector<model::TaskIndex> closed = closed_requests(at);
+  const std::vector<model::TaskIndex> closed = at.cycle.closed(at.now);
   const model::Values& values = at.cycle.past().values;
   std::vector<std::uint32_t> before;
   for (const Block* const one : by_start(at.cycle)) {

@@ -49,9 +49,9 @@ class Recovery {
   void take_past(const Token& token) {
     const std::string_view name = token.timeline;
     const std::string_view rest = name.substr(std::min(name.size(), name.find('.') + 1));
-    if (name.starts_with("done.")) {
-      out_.past.done.insert(
-          static_cast<model::TaskIndex>(index(network_.tasks, rest, &model::Task::id, "task")));
+    if (name.starts_with("done.") || name.starts_with("withdrawn.")) {
+      auto& tasks = name.starts_with("done.") ? out_.past.done : out_.past.withdrawn;
+      tasks.insert(static_cast<model::TaskIndex>(index(network_.tasks, rest, &model::Task::id, "task")));
     } else if (name.starts_with("parameter.")) {
       const auto* number = std::get_if<double>(&token.held);
       if (number == nullptr) foreign("number in " + token.timeline);
@@ -93,6 +93,7 @@ class Recovery {
     out.planned = out.start = plan_.origin + starts_[activity.start_point];
     out.end = out.start + activity.duration_lower;
     out.stage = activity.commit == temporal::CommitState::committed ? Stage::committed : Stage::planned;
+    if (out.stage == Stage::committed) out.told = activity.duration_lower;
     out_.points.set(id, activity.start_point, activity.end_point);
     return out;
   }

@@ -118,7 +118,7 @@ void UtilityEngine::hear(const StepInputs& inputs) {
   for (const engine::CommandResult& result : inputs.results)
     if (task_of(result.activity)) measurements_.hear(result);
   measure();
-  for (const engine::DataProduct& product : inputs.products) hear_product(product);
+  for (const engine::DataProduct& product : inputs.products) hear_product(product, inputs.now);
   if (inputs.receipt) hear_receipt(*inputs.receipt, inputs.now);
 }
 
@@ -179,8 +179,8 @@ bool UtilityEngine::tasks_move(const std::string& timeline) const {
   });
 }
 
-void UtilityEngine::hear_product(const engine::DataProduct& product) {
-  if (!delivery_.hear(existing(network_, chains_, *cycle_, product))) return;
+void UtilityEngine::hear_product(const engine::DataProduct& product, Time now) {
+  if (!delivery_.hear(existing(network_, chains_, *cycle_, product), now)) return;
   cycle_->doubt();
   to_look_ = true;
 }
@@ -239,6 +239,7 @@ void UtilityEngine::go_on_with(const FlexiblePlan& executed, Time now) {
     recovered.points.set(*task_of(gone.id), gone.start_point, gone.end_point);
   if (std::exchange(goes_on_, true)) {
     recovered.past.values = cycle_->past().values;
+    recovered.past.withdrawn = cycle_->past().withdrawn;
     recovered.past.done.insert(cycle_->past().done.begin(), cycle_->past().done.end());
     recovered.measured.insert(measurements_.taken().begin(), measurements_.taken().end());
   }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -33,6 +34,21 @@ struct Context {
   std::span<const model::TaskIndex> closed;   ///< requests that are done, failed for good or withdrawn
 };
 
+/// Predicts chains again and again while nothing but what is planned changes, as in a search: what else a prediction depends on is looked
+/// at once.
+class Forecast {
+ public:
+  virtual ~Forecast() = default;
+
+  /// Takes what is planned from here on, in the order of starts.
+  virtual void plan(std::span<const std::uint32_t> planned) = 0;
+  /// Takes one chain more, which starts after all that is planned.
+  virtual void plan_next(std::uint32_t chain) = 0;
+  /// Returns what Assessor::predicted() does after what is planned; where that breaks a rule of the mission, perhaps another vector that
+  /// does.
+  virtual temporal::RankVector predicted(std::uint32_t chain) const = 0;
+};
+
 /// Predicts utilities. An Assessor is a pure function of its arguments: equal contexts give equal utilities.
 class Assessor {
  public:
@@ -41,6 +57,8 @@ class Assessor {
   /// Returns the utility that is expected of a chain when it follows what is planned. One whose first score that is not 0 is below 0
   /// would break a rule of the mission: no plan holds it (R114).
   virtual temporal::RankVector predicted(std::uint32_t chain, const Context& context) const = 0;
+  /// Returns predictions for contexts that are this one but for what is planned. Assessor and context outlive it.
+  virtual std::unique_ptr<Forecast> forecast(const Context& context) const;
   /// Returns no less, rank by rank, than predicted() in any context that the plan may still grow into.
   virtual temporal::RankVector most(std::uint32_t chain, const Context& context) const = 0;
   /// Returns whether the prediction depends on what is planned, or that of others on this chain being planned. All others are asked

@@ -85,18 +85,94 @@ void SubwayAssessor::find_openers(const model::Network& network, const flattenin
 
 RankVector SubwayAssessor::predicted(std::uint32_t chain, const Context& context) const {
   const Chain& links = context.chains.chains.at(chain);
-  const std::size_t rank = context.network.subway.rank;
   if (!stops_.at(chain)) {
-    RankVector worth = flattening::utility(context.network, links, context.values);
-    if (!opens_[chain]) return worth;
-    const std::optional<Stop> next = state(context).next();
-    return next && next->site == *opens_[chain] ? worth : worth + at_rank(rank, -1.0 - worth[rank]);
+    const RankVector worth = flattening::utility(context.network, links, context.values);
+    return opens_[chain] ? opening(chain, context, worth, state(context).next()) : worth;
   }
-  const Stop stop = *stops_[chain];
   const SubwayState map = state(context);
-  RankVector out = own_worth(links, context, map.estimated(stop));
-  out += support(chain, stop.site, context);
-  return out + at_rank(rank, (map.next() == stop ? 1.0 : -1.0) - out[rank]);
+  return sampling(chain, context, own_worth(links, context, map.estimated(*stops_[chain])), map.next());
+}
+
+// Returns what a chain is worth that opens a site, where the map leads to `next`.
+RankVector SubwayAssessor::opening(std::uint32_t chain, const Context& context, const RankVector& worth,
+                                   const std::optional<Stop>& next) const {
+  const std::size_t rank = context.network.subway.rank;
+  return next && next->site == *opens_[chain] ? worth : worth + at_rank(rank, -1.0 - worth[rank]);
+}
+
+// Returns what a chain is worth that samples a target, and is worth `own` by itself.
+RankVector SubwayAssessor::sampling(std::uint32_t chain, const Context& context, const RankVector& own,
+                                    const std::optional<Stop>& next) const {
+  const std::size_t rank = context.network.subway.rank;
+  const RankVector out = own + support(chain, stops_[chain]->site, context);
+  return out + at_rank(rank, (next == stops_[chain] ? 1.0 : -1.0) - out[rank]);
+}
+
+// What does not depend on what is planned is looked at once: values and signatures, and so what a chain is worth by itself.
+class SubwayAssessor::MapForecast final : public Forecast {
+ public:
+  MapForecast(const SubwayAssessor& assessor, const Context& context)
+      : assessor_(assessor),
+        context_(context),
+        nothing_planned_(assessor.state({context.network,
+                                         context.values,
+                                         context.chains,
+                                         context.timelines_now,
+                                         context.products,
+                                         {},
+                                         context.closed})),
+        map_(nothing_planned_),
+        own_(assessor.stops_.size()) {}
+
+  void plan(std::span<const std::uint32_t> planned) override {
+    planned_.clear();
+    map_ = nothing_planned_;
+    for (const std::uint32_t chain : planned) add(chain);
+    next_ = map_.next();
+  }
+  void plan_next(std::uint32_t chain) override {
+    add(chain);
+    next_ = map_.next();
+  }
+
+  RankVector predicted(std::uint32_t chain) const override {
+    const auto& stop = assessor_.stops_[chain];
+    const auto& opens = assessor_.opens_[chain];
+    const bool led_elsewhere = stop ? next_ != stop : opens && (!next_ || next_->site != *opens);
+    if (led_elsewhere && context_.network.subway.rank == 0) return {-1.0};
+    if (!own_[chain]) own_[chain] = own_worth(chain);
+    if (!stop) return opens ? assessor_.opening(chain, context_, *own_[chain], next_) : *own_[chain];
+    return assessor_.sampling(chain,
+                              {context_.network, context_.values, context_.chains, context_.timelines_now,
+                               context_.products, planned_, context_.closed},
+                              *own_[chain], next_);
+  }
+
+ private:
+  void add(std::uint32_t chain) {
+    planned_.push_back(chain);
+    if (assessor_.stops_[chain]) map_.plan(*assessor_.stops_[chain]);
+  }
+  RankVector own_worth(std::uint32_t chain) const {
+    const Chain& links = context_.chains.chains[chain];
+    const auto& stop = assessor_.stops_[chain];
+    return stop ? assessor_.own_worth(links, context_, nothing_planned_.estimated(*stop))
+                : flattening::utility(context_.network, links, context_.values);
+  }
+
+  const SubwayAssessor& assessor_;
+  Context context_;
+  SubwayState nothing_planned_;  // what is estimated depends on signatures alone
+  SubwayState map_;
+  std::optional<Stop> next_;
+  std::vector<std::uint32_t> planned_;
+  mutable std::vector<std::optional<RankVector>> own_;  // by chain
+};
+
+std::unique_ptr<Forecast> SubwayAssessor::forecast(const Context& context) const {
+  auto out = std::make_unique<MapForecast>(*this, context);
+  out->plan(context.planned);
+  return out;
 }
 
 RankVector SubwayAssessor::most(std::uint32_t chain, const Context& context) const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -26,6 +27,7 @@ class SubwayAssessor final : public Assessor {
   SubwayAssessor(const model::Network& network, const flattening::Chains& chains);
 
   temporal::RankVector predicted(std::uint32_t chain, const Context& context) const override;
+  std::unique_ptr<Forecast> forecast(const Context& context) const override;
   temporal::RankVector most(std::uint32_t chain, const Context& context) const override;
   bool contextual(std::uint32_t chain, const Context& context) const override;
   std::string objection(std::uint32_t chain, const Context& context) const override;
@@ -36,7 +38,12 @@ class SubwayAssessor final : public Assessor {
   SubwayState state(const Context& context) const;
 
  private:
+  class MapForecast;
   void find_openers(const model::Network& network, const flattening::Chains& chains);
+  temporal::RankVector opening(std::uint32_t chain, const Context& context, const temporal::RankVector& worth,
+                               const std::optional<Stop>& next) const;
+  temporal::RankVector sampling(std::uint32_t chain, const Context& context, const temporal::RankVector& own,
+                                const std::optional<Stop>& next) const;
   temporal::RankVector own_worth(const flattening::Chain& chain, const Context& context,
                                  double estimated) const;
   temporal::RankVector support(std::uint32_t chain, std::uint32_t site, const Context& context) const;

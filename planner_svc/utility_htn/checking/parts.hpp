@@ -1,6 +1,7 @@
 // The parts of the check, one for each file; each adds its faults.
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -16,8 +17,13 @@ void check_commitments(const Question& question, Faults& out);
 void check_conditions(const Question& question, Faults& out);
 void check_ranges(const Question& question, Faults& out);
 void check_budget(const Question& question, Faults& out);
+void check_sessions(const Question& question, Faults& out);
 void check_downlinks(const Question& question, Faults& out);
 void check_subway_map(const Question& question, Faults& out);
+
+/// Returns the requests of which no way to do them can come about, by the states that are reached now or by anything that is planned or
+/// still asked for. Templates that are asked for are not known here, so more may be returned than there are.
+std::set<model::TaskIndex> out_of_reach(const Question& question);
 
 /// Prints "task 'x' at 12 s".
 std::string name(const Question& question, const Step& step);

@@ -1,6 +1,8 @@
 // The rules of the subway map (section II.B.2, figure 3, R112), applied to the samples of the plan one after the other.
 #include <algorithm>
+#include <iterator>
 #include <optional>
+#include <set>
 
 #include "planner_svc/utility_htn/checking/parts.hpp"
 
@@ -8,7 +10,8 @@ namespace roci::planner::utility_htn::checking {
 namespace {
 
 struct Target {
-  bool free = true;  // it can still be asked for
+  bool free = true;     // it is still asked for
+  bool beyond = false;  // nothing leads to it any more
   double visual = 0;
 };
 
@@ -20,7 +23,7 @@ struct Site {
 
   bool open(std::uint32_t most) const {
     return !negative && samples < most &&
-           std::ranges::any_of(targets, [](const Target& target) { return target.free; });
+           std::ranges::any_of(targets, [](const Target& target) { return target.free && !target.beyond; });
   }
 };
 
@@ -35,15 +38,16 @@ double newest(const Question& question, temporal::timelines::Index timeline) {
   return out;
 }
 
-std::vector<Site> sites_of(const Question& question) {
+std::vector<Site> sites_of(const Question& question, const std::set<model::TaskIndex>& beyond) {
   std::vector<Site> out;
   for (const model::Site& site : question.network.subway.sites) {
     Site here{.value = model::evaluate(site.value, question.values), .targets = {}};
     for (const model::Target& target : site.targets) {
       const double signature = newest(question, target.signature);  // 0 unknown, 1 negative, 2 positive
       const bool closed = std::ranges::find(question.closed, target.task) != question.closed.end();
-      here.targets.push_back(
-          {.free = signature == 0 && !closed, .visual = model::evaluate(target.visual, question.values)});
+      here.targets.push_back({.free = signature == 0 && !closed,
+                              .beyond = beyond.contains(target.task),
+                              .visual = model::evaluate(target.visual, question.values)});
       here.samples += signature != 0 ? 1 : 0;
       here.negative |= signature == 1;
     }
@@ -52,11 +56,10 @@ std::vector<Site> sites_of(const Question& question) {
   return out;
 }
 
-}  // namespace
-
-void check_subway_map(const Question& question, Faults& out) {
+Faults faults_of(const Question& question, const std::set<model::TaskIndex>& beyond) {
+  Faults out;
   const model::SubwayMap& map = question.network.subway;
-  std::vector<Site> sites = sites_of(question);
+  std::vector<Site> sites = sites_of(question, beyond);
   std::vector<const Block*> blocks;
   for (const Block& block : question.plan) {
     if (!block.steps.empty()) blocks.push_back(&block);
@@ -89,7 +92,8 @@ void check_subway_map(const Question& question, Faults& out) {
             }
           }
           for (std::size_t o = 0; o < site.targets.size(); ++o) {
-            if (o != t && site.targets[o].free && site.targets[o].visual > target.visual + 1e-9) {
+            if (o != t && site.targets[o].free && !site.targets[o].beyond &&
+                site.targets[o].visual > target.visual + 1e-9) {
               out.push_back(who + ": target '" + question.network.tasks[map.sites[s].targets[o].task].id +
                             "' has the greater value and goes first");
             }
@@ -100,6 +104,16 @@ void check_subway_map(const Question& question, Faults& out) {
       }
     }
   }
+  return out;
+}
+
+}  // namespace
+
+// What is out of reach excuses others, and is looked for only where there is something to excuse.
+void check_subway_map(const Question& question, Faults& out) {
+  Faults found = faults_of(question, {});
+  if (!found.empty()) found = faults_of(question, out_of_reach(question));
+  std::ranges::move(found, std::back_inserter(out));
 }
 
 }  // namespace roci::planner::utility_htn::checking

@@ -36,7 +36,7 @@ std::vector<std::string> faults_of(const model::Network& network, const engine::
   question.rests = std::move(version.rests);
   question.downlinks_told = false;
   question.observations = std::move(version.internal);
-  question.closed = std::move(version.done);
+  question.closed = std::move(version.closed);
   question.origin = checked.plan.origin;
   question.now = now;
   question.from = now + network.cycle.commit_window;

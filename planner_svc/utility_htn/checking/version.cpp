@@ -80,8 +80,8 @@ class Reader {
     const std::string_view name = token.timeline;
     const std::string_view rest = name.substr(std::min(name.size(), name.find('.') + 1));
     const auto* number = std::get_if<double>(&token.held);
-    if (name.starts_with("done.")) {
-      if (const auto task = index_of(network_.tasks, rest, &model::Task::id)) out_.done.push_back(*task);
+    if (name.starts_with("done.") || name.starts_with("withdrawn.")) {
+      if (const auto task = index_of(network_.tasks, rest, &model::Task::id)) out_.closed.push_back(*task);
     } else if (name.starts_with("parameter.") && number != nullptr) {
       if (const auto parameter = index_of(network_.parameters, rest, &model::Parameter::name))
         out_.values[*parameter] = *number;

@@ -2,41 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "planner_svc/utility_htn/cli/words.hpp"
 #include "planner_svc/utility_htn/model/describe.hpp"
 
 namespace roci::planner::utility_htn::cli {
 
 using flattening::Chain, flattening::Chains;
 using model::Network, model::Subtask, model::Values;
-
-namespace {
-
-std::string padded(std::string text, std::size_t width) {
-  text.resize(std::max(width, text.size()), ' ');
-  return text;
-}
-
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g", value);
-  return text;
-}
-
-// Rank by rank what is not zero: "analysis 0.9, default 0.1".
-std::string in_ranks(const temporal::RankVector& utility, const Network& network) {
-  std::string out;
-  for (std::size_t rank = 0; rank < utility.scores().size(); ++rank)
-    if (utility[rank] != 0)
-      out += (out.empty() ? "" : ", ") + network.ranks.at(rank) + " " + number(utility[rank]);
-  return out.empty() ? "0" : out;
-}
-
-}  // namespace
 
 ChainRow row_of(const Network& network, const Chain& chain, const Values& values) {
   const model::Task& task = network.tasks.at(chain.task);

@@ -1,13 +1,17 @@
 #include "planner_svc/utility_htn/cli/commands.hpp"
 
+#include <algorithm>
+#include <charconv>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <ostream>
+#include <stdexcept>
 #include <string>
 
 #include "core/mission/findings.hpp"
 #include "planner_svc/utility_htn/cli/chain_table.hpp"
+#include "planner_svc/utility_htn/cli/first_plan.hpp"
 #include "planner_svc/utility_htn/reading/binary.hpp"
 #include "planner_svc/utility_htn/reading/load.hpp"
 #include "planner_svc/utility_htn/reading/yaml.hpp"
@@ -67,6 +71,40 @@ std::optional<Network> load(const std::filesystem::path& file, const Output& out
   return network;
 }
 
+void require_requested(const Network& network, const std::string& task) {
+  const auto found = std::ranges::find(network.tasks, task, &model::Task::id);
+  if (found == network.tasks.end())
+    throw std::invalid_argument("there is no task '" + task + "'; roci-network chains lists those there are");
+  if (found->is_template)
+    throw std::invalid_argument("'" + task + "' is a template, for which nobody asks by itself; name a task");
+}
+
+// "battery=250000": a parameter, or the first value of a timeline; of a state timeline the state's name.
+WhatIf what_if(const Network& network, const std::vector<std::string>& changes) {
+  WhatIf out;
+  for (const std::string& change : changes) {
+    const std::size_t equals = std::min(change.find('='), change.size());
+    const std::string name = change.substr(0, equals);
+    const std::string text = change.substr(std::min(equals + 1, change.size()));
+    const auto timeline = std::ranges::find(network.timelines, name, &temporal::timelines::Definition::name);
+    double value = 0;
+    const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    const bool is_number = !text.empty() && error == std::errc{} && rest == text.data() + text.size();
+    if (timeline == network.timelines.end()) {
+      if (!is_number) throw std::invalid_argument("'" + change + "' is not NAME=NUMBER");
+      out.values[name] = value;
+      continue;
+    }
+    const auto state = std::ranges::find(timeline->states, text);
+    if (state != timeline->states.end())
+      value = static_cast<double>(state - timeline->states.begin());
+    else if (!is_number || !timeline->states.empty())
+      throw std::invalid_argument("'" + change + "' is no value of the timeline '" + name + "'");
+    out.initial[name] = value;
+  }
+  return out;
+}
+
 }  // namespace
 
 ExitCode check(const std::filesystem::path& file, const Output& output) {
@@ -106,6 +144,22 @@ ExitCode chains(const std::filesystem::path& file, const Output& output) {
   const flattening::Chains all = flattening::flatten(*network);
   output.out << (output.json ? chain_json(*network, all) + "\n" : chain_table(*network, all));
   return done;
+}
+
+ExitCode explain(const std::filesystem::path& file, const std::vector<std::string>& tasks,
+                 const std::vector<std::string>& changes, const Output& output) {
+  if (!readable(file, output)) return wrong_use;
+  const auto network = load(file, output);
+  if (!network) return faulty;
+  try {
+    for (const std::string& task : tasks) require_requested(*network, task);
+    const FirstPlan plan = first_plan(*network, what_if(*network, changes));
+    output.out << (output.json ? plan_json(*network, plan) + "\n" : plan_text(*network, plan, tasks));
+    return done;
+  } catch (const std::invalid_argument& error) {
+    output.errors << file.string() << ": " << error.what() << '\n';
+    return wrong_use;
+  }
 }
 
 ExitCode pack(const std::filesystem::path& file, const std::filesystem::path& to, const Output& output) {

@@ -3,6 +3,8 @@
 
 #include <filesystem>
 #include <iosfwd>
+#include <string>
+#include <vector>
 
 namespace roci::planner::utility_htn::cli {
 
@@ -21,6 +23,11 @@ ExitCode check(const std::filesystem::path& file, const Output& output);
 
 /// Prints every chain with its utility, what it takes from the budget, and its duration.
 ExitCode chains(const std::filesystem::path& file, const Output& output);
+
+/// Prints the plan that the planner would begin with, and why what is not in it is not; of the tasks that are named every way, of all others the way
+/// that is worth most. `changes` are NAME=VALUE, a parameter or a timeline's first value. A wrong name or value ends with wrong_use.
+ExitCode explain(const std::filesystem::path& file, const std::vector<std::string>& tasks,
+                 const std::vector<std::string>& changes, const Output& output);
 
 /// Writes the binary form of a network, which may be in either form, to a file.
 ExitCode pack(const std::filesystem::path& file, const std::filesystem::path& to, const Output& output);

@@ -1,7 +1,8 @@
-// roci-network: roci-network check|chains|pack|unpack FILE …
+// roci-network: roci-network check|chains|explain|pack|unpack FILE …
 #include <CLI/CLI.hpp>
 #include <iostream>
 #include <string>
+#include <vector>
 
 #include "planner_svc/utility_htn/cli/commands.hpp"
 
@@ -28,6 +29,14 @@ int run_command_line(int argc, char** argv) {
   CLI::App* chains_command =
       command("chains", "Lists every way to do its tasks, with utility, cost and duration");
   chains_command->add_flag("--json", json, "as one JSON object");
+  std::vector<std::string> tasks, changes;
+  CLI::App* explain_command =
+      command("explain", "Plans it from its beginning, and says why what is not planned is not");
+  explain_command->add_option("TASK", tasks, "of these every way to do them is explained, and of no other");
+  explain_command
+      ->add_option("--set", changes, "NAME=VALUE: a parameter, or a timeline's first value, is that")
+      ->allow_extra_args(false);
+  explain_command->add_flag("--json", json, "as one JSON object");
   CLI::App* pack_command = command("pack", "Writes its binary form, which is what the lander takes");
   pack_command->add_option("-o,--output", to, "the file to write")->required();
   CLI::App* unpack_command = command("unpack", "Writes it as YAML, in full");
@@ -40,6 +49,7 @@ int run_command_line(int argc, char** argv) {
   const Output output{std::cout, std::cerr, json};
   if (*check_command) return check(file, output);
   if (*chains_command) return chains(file, output);
+  if (*explain_command) return explain(file, tasks, changes, output);
   if (*pack_command) return pack(file, to, output);
   return unpack(file, to, output);
 }

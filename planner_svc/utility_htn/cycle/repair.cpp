@@ -62,20 +62,39 @@ Block* Cycle::culprit(const temporal::timelines::Conflict& conflict) {
 // Takes out what has not begun and is predicted to break a rule of the mission (R114), as things stand now.
 bool Cycle::keep_rules(Time now, Report& report) {
   const std::vector<double> newest = values_now(now);
-  bool changed = false;
-  for (bool again = true; again;) {
-    again = false;
-    std::vector<std::uint32_t> before;
-    for (const Block* one : by_start()) {
-      if (!one->begun() && predicted(one->chain, newest, before) < temporal::RankVector{}) {
-        drop(*one, "it breaks a rule of the mission", report);
-        changed = again = true;
-        break;
-      }
-      before.push_back(one->chain);
-    }
+  const std::vector<model::TaskIndex> closed = this->closed(now);
+  std::vector<std::uint32_t> order, before;
+  for (const Block* one : by_start()) order.push_back(one->number);
+  for (const std::uint32_t number : order) {
+    const Block& one = *block(number);
+    const bool breaks = !one.begun() && predicted(one.chain, newest, before, closed) < temporal::RankVector{};
+    if (!breaks) before.push_back(one.chain);
+    if (breaks) drop(one, "it breaks a rule of the mission", report);
   }
-  return changed;
+  return before.size() < order.size();
+}
+
+// What has moved to another sol may take more of it than its limit permits: downlinks that were made longer take less, and then what has not
+// begun gives way, the last one first.
+void Cycle::keep_limits(Report& report) {
+  if (delivery_ == nullptr) return;
+  auto overdrawn = delivery_->overdrawn_sols(data().downlinks, past_.values);
+  if (overdrawn.empty()) return;
+  fit_downlinks();
+  while (!(overdrawn = delivery_->overdrawn_sols(data().downlinks, past_.values)).empty()) {
+    const Block* last = nullptr;
+    for (const Block& one : blocks_) {
+      const auto overdraws = [&](const Link& each) {
+        return network_.tasks[each.task].downlinks &&
+               overdrawn.contains(delivery_->sol_of(each.start, past_.values));
+      };
+      if (!one.begun() && std::ranges::any_of(one.links, overdraws) &&
+          (last == nullptr || one.links.front().start > last->links.front().start))
+        last = &one;
+    }
+    if (last == nullptr) break;
+    drop(*last, "downlinks of its sol take more than its limit", report);
+  }
 }
 
 // Conflicts behind the commit window are mended by moving what has begun to later, and taking out what has not; the
@@ -98,6 +117,7 @@ bool Cycle::repair(Time now, Report& report) {
       abandon(*block(number), kNoTimeLeft, report);
     }
   }
+  if (changed) keep_rules(now, report);  // the map may have led through what was taken out
   if (changed && to_schedule_) schedule(now, report);
   return changed;
 }

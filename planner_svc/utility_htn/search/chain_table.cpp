@@ -28,6 +28,7 @@ ChainTable::ChainTable(const Problem& problem) : problem_(problem) {
   const assessor::Context context{problem.network,       problem.values,   problem.chains,
                                   problem.timelines_now, problem.products, {},
                                   problem.closed};
+  forecast_ = problem.assessor.forecast(context);
   for (std::uint32_t index = 0; index < count; ++index) {
     double cost = 0;
     for (const Subtask& link : chain(index).links) cost += of_tasks[link.task];
@@ -83,6 +84,10 @@ RankVector ChainTable::predicted(std::uint32_t index, std::span<const std::uint3
   return rounded(problem_.assessor.predicted(index, context));
 }
 
+RankVector ChainTable::forecast(std::uint32_t index) const {
+  return contextual_[index] ? rounded(forecast_->predicted(index)) : utilities_[index];
+}
+
 void ChainTable::add_data(const Placed& placed, PlannedData& out) const {
   const Chain& links = chain(placed.chain);
   for (std::size_t index = 0; index < links.links.size(); ++index) {
@@ -104,6 +109,7 @@ model::DataProduct predicted(const Task& request, const Task& task, const model:
 }
 
 PlannedData ChainTable::committed_data() const {
+  if (problem_.standing) return *problem_.standing;
   PlannedData out;
   for (const Placed& placed : problem_.committed) add_data(placed, out);
   out.committed_products = out.products.size();

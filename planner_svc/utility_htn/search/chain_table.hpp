@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -34,6 +35,12 @@ class ChainTable {
   std::span<const Link> links(std::uint32_t index);
   /// Returns the prediction of a chain after what is planned, rounded.
   temporal::RankVector predicted(std::uint32_t index, std::span<const std::uint32_t> planned) const;
+  /// Takes what forecast() follows: chains by start.
+  void follow(std::span<const std::uint32_t> planned) { forecast_->plan(planned); }
+  /// Takes one more, which starts last.
+  void follow_next(std::uint32_t index) { forecast_->plan_next(index); }
+  /// Returns predicted() after what is followed, or for what that refuses perhaps something else that is refused.
+  temporal::RankVector forecast(std::uint32_t index) const;
   /// Adds what a placed chain would generate and send.
   void add_data(const Placed& placed, PlannedData& out) const;
   /// Returns what all that is committed would generate and send.
@@ -49,6 +56,7 @@ class ChainTable {
   std::vector<bool> contextual_;
   std::vector<temporal::RankVector> utilities_;
   std::vector<bool> taken_;
+  std::unique_ptr<assessor::Forecast> forecast_;
   std::vector<std::vector<Link>> links_;
   std::size_t link_bytes_ = 0;
 };

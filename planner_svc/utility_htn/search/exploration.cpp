@@ -82,11 +82,11 @@ bool Exploration::comes_first(const Prospect& a, const Prospect& b) const {
 // Asks the Assessor what contextual chains are worth after the plan here.
 void Exploration::find_prospects(NodeId id) {
   if (contextual_.empty()) return;
-  const std::vector<std::uint32_t> planned = by_start(problem_.committed, all_placed(nullptr));
+  table_.follow(by_start(problem_.committed, all_placed(nullptr)));
   Node& node = nodes_[id];
   for (const std::uint32_t chain : contextual_) {
     if (nodes_.holds(table_.chain(chain).task) || !affordable(node, chain)) continue;
-    RankVector utility = table_.predicted(chain, planned);
+    RankVector utility = table_.forecast(chain);
     if (refused(utility)) continue;
     RankVector ratio = per_cost(utility, table_.cost(chain));
     node.prospects.push_back({chain, std::move(utility), std::move(ratio)});
@@ -161,13 +161,18 @@ bool Exploration::utility_of(const Placed& added, const Entry& entry, RankVector
     return true;
   }
   const std::vector<std::uint32_t> order = by_start(problem_.committed, all);
+  std::vector<std::uint32_t> chosen;
+  for (const Placed& placed : all) chosen.push_back(placed.chain);
+  std::ranges::sort(chosen);
   RankVector sum;
-  for (std::size_t index = 0; index < order.size(); ++index) {
-    const auto is_it = [&](const Placed& placed) { return placed.chain == order[index]; };
-    if (std::ranges::none_of(all, is_it)) continue;  // committed
-    const RankVector utility = table_.predicted(order[index], std::span(order).first(index));
-    if (refused(utility)) return false;
-    sum += utility;
+  table_.follow({});
+  for (const std::uint32_t chain : order) {
+    if (std::ranges::binary_search(chosen, chain)) {  // otherwise it is committed
+      const RankVector utility = table_.forecast(chain);
+      if (refused(utility)) return false;
+      sum += utility;
+    }
+    table_.follow_next(chain);
   }
   out = rounded(sum);
   return true;

@@ -36,8 +36,8 @@ std::string all_tests() {
 }
 
 TEST(FuzzCoverage, EveryReaderOfFilesHasItsTest) {
-  for (const char* folder : {"core", "services", "planner_svc", "exec_svc", "pathplan_svc", "arm_svc",
-                             "science_svc", "sim_svc", "ground_console", "rehearsal"}) {
+  for (const char* folder : {"core", "services", "planner_svc", "exec_svc", "pathplan_svc", "dedicated_svc",
+                             "arm_svc", "science_svc", "sim_svc", "ground_console", "rehearsal"}) {
     for (const auto& entry : fs::recursive_directory_iterator(kRoot / folder)) {
       if (entry.path().extension() != ".cpp" || !opens_a_file(read(entry.path()))) continue;
       const std::string path = fs::relative(entry.path(), kRoot).string();

@@ -12,6 +12,7 @@ inline const std::map<std::string, std::string> kFileReaders{
     {"arm_svc/setup_file.cpp", "FuzzMissions.IsTakenOrRefusedWithItsPlace"},
     {"core/mission/entry.cpp", "FuzzMissions.IsTakenOrRefusedWithItsPlace"},
     {"core/terrain/pgm.cpp", "FuzzMissions.IsTakenOrRefusedWithItsPlace"},
+    {"dedicated_svc/call_record_service.cpp", "FuzzRunFiles.AreReadOrRefused"},
     {"exec_svc/journal/database.cpp", "FuzzJournal.ADamagedFileIsReadOrRefused"},
     {"exec_svc/journal/journal_batches.cpp", "FuzzStandby.ADamagedJournalIsCopiedOrRefused"},
     {"exec_svc/journal/high_water_mark.cpp", "FuzzRunFiles.AreReadOrRefused"},

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/mission/service_list.hpp"
+#include "dedicated_svc/call_record_service.hpp"
 #include "exec_svc/journal/high_water_mark.hpp"
 #include "exec_svc/journal/journal.hpp"
 #include "exec_svc/standby/persisted_term_file.hpp"
@@ -69,6 +70,9 @@ class FuzzRunFiles : public testing::Test {
          [](const fs::path& folder) { process::read_link_reports(folder); }},
         {"arm_svc.incarnation", "3\n",
          [](const fs::path& folder) { process::next_incarnation(folder, "arm_svc"); }},
+        {"loco.calls",
+         R"({"epoch":7,"open":{"activity":"exec/1/p1.2-a/3","attempt":1,"commander":"loco","epoch":7,"owner":"sim_svc"}})",
+         [](const fs::path& folder) { dedicated::CallRecord(folder / "loco.calls").open(); }},
         {"first.term", "12 1\n",
          [](const fs::path& folder) {
            exec::standby::PersistedTermFile(folder / "first.term", exec::journal::Durability::process).read();

@@ -15,6 +15,7 @@
 #include "core/mission/scenario.hpp"
 #include "core/terrain/map_error.hpp"
 #include "core/terrain/site_file.hpp"
+#include "dedicated_svc/methods/methods_file.hpp"
 #include "exec_svc/mission/mission_model.hpp"
 #include "pathplan_svc/rover_file.hpp"
 #include "science_svc/detector_file.hpp"
@@ -57,6 +58,10 @@ const std::vector<Reader> kReaders{
      [](const fs::path& folder) {
        const Entry root = Entry::load(folder / "mission.yaml");
        if (const auto rover = root.find("rover")) pathplan::read_rover(*rover);
+     }},
+    {"dedicated_svc",
+     [](const fs::path& folder) {
+       dedicated::methods::read_methods(Entry::load(folder / "dedicated.yaml").at("dedicated"));
      }},
     {"science_svc",
      [](const fs::path& folder) {
@@ -101,6 +106,15 @@ class FuzzMissions : public testing::TestWithParam<const char*> {
           "  reach_for: {parameters: [slot], gives: duration, from: stow, to: \"?1\"}\n"
           "  shift: {parameters: [thing, slot, slot], gives: energy, from: \"?2\", to: \"?3\",\n"
           "          payload: {mass_kg: \"?1.mass_kg\", size_m: [0.4, \"?1.edge_m\", 0.4]}}\n");
+    write(folder_ / "dedicated.yaml",
+          "dedicated:\n  timeline: r.loco\n  subsystem: loco\n  methods:\n    go:\n      arguments: [wp]\n   "
+          "   calls:\n"
+          "        - {name: a, path: {planner: p, from: {robot: r}, to: {object: \"{wp}\"}}, within_s: 30}\n"
+          "        - {name: b, command: {owner: o, subsystem: s, name: c, arguments: {x: \"{a.next_x}\"}},\n"
+          "           check: {energy: {at_most: 3}}}\n"
+          "      repairs: {no-go: {calls: [{name: d, observe: {timeline: t, is: [s, \"{wp}\"]}}], then: a, "
+          "at_most: 2}}\n"
+          "      results: {length: \"{a.length_m}\"}\n      then: [at, \"{wp}\"]\n");
   }
   ~FuzzMissions() override { fs::remove_all(folder_); }
 
@@ -123,8 +137,8 @@ TEST_P(FuzzMissions, IsTakenOrRefusedWithItsPlace) {
 
 INSTANTIATE_TEST_SUITE_P(Files, FuzzMissions,
                          testing::Values("mission.yaml", "domain.pddl", "scenarios/opportunistic.yaml",
-                                         "arm/arm.urdf", "arm/poses.yaml", "arm.yaml", "site/site.yaml",
-                                         "site/rocks.pgm", "network.yaml"),
+                                         "arm/arm.urdf", "arm/poses.yaml", "arm.yaml", "dedicated.yaml",
+                                         "site/site.yaml", "site/rocks.pgm", "network.yaml"),
                          [](const auto& test) {
                            std::string name = test.param;
                            for (char& c : name) c = c == '/' || c == '.' ? '_' : c;

@@ -15,19 +15,20 @@ namespace {
 namespace fs = std::filesystem;
 
 // Words of the same shape that are no codes: names of files, windows, partitions and places of files.
-const std::set<std::string> kOthers{"begun.json",   "comm.window",     "contingencies.wipe-lens",
-                                    "earth.window", "effects.jsonl",   "expected.json",
-                                    "identity.key", "issued.json",     "journal.sqlite",
-                                    "launch.json",  "launch.lock",     "mission.yaml",
-                                    "orders.json",  "permissions.key", "revoked.pem",
-                                    "roci.inner",   "roci.team",       "summary.json",
-                                    "sun.window"};
+const std::set<std::string> kOthers{"activity.argument", "begun.json",     "call.error",
+                                    "call.value",        "comm.window",    "contingencies.wipe-lens",
+                                    "earth.window",      "effects.jsonl",  "expected.json",
+                                    "identity.key",      "issued.json",    "journal.sqlite",
+                                    "launch.json",       "launch.lock",    "mission.yaml",
+                                    "orders.json",       "products.jsonl", "permissions.key",
+                                    "revoked.pem",       "roci.inner",     "roci.team",
+                                    "summary.json",      "sun.window"};
 
 std::set<std::string> codes_in_sources() {
   std::set<std::string> out;
   const std::regex code("\"([a-z]+\\.[a-z_-]+)\"");
-  for (const char* part :
-       {"exec_svc", "services", "planner_svc", "sim_svc", "pathplan_svc", "arm_svc", "science_svc"}) {
+  for (const char* part : {"exec_svc", "services", "planner_svc", "sim_svc", "pathplan_svc", "dedicated_svc",
+                           "arm_svc", "science_svc"}) {
     for (const auto& file : fs::recursive_directory_iterator(fs::path(ROCI_SOURCE_DIR) / part)) {
       if (file.path().extension() != ".cpp" && file.path().extension() != ".hpp") continue;
       std::ostringstream in;

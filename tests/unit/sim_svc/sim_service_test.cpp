@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <nlohmann/json.hpp>
 
 #include "core/mission/entry.hpp"
 #include "services/publisher.hpp"
@@ -243,7 +244,7 @@ TEST_F(SimService, DataGoAsTheDownlinkScheduleSaysAndTheirFatesAreTold) {
   schedule_->downlinks()[0].products().resize(1);
   schedule_->downlinks()[0].products()[0].id("late");
   const Heard heard =
-      fly({{5s, command("p", "camera", "panorama", {})}, {50s, command("d", "radio", "send", {})}}, 600s);
+      fly({{5s, command("p", "camera", "panorama", {})}, {50s, command("d", "radio", "send", {})}}, 100s);
   EXPECT_THAT(stages(heard, "d"), ElementsAre(v1::STAGE_ACCEPTED, v1::STAGE_COMPLETED));
   ASSERT_EQ(heard.products.size(), 4u);
   EXPECT_EQ(heard.products[0].id(), "early");
@@ -256,6 +257,16 @@ TEST_F(SimService, DataGoAsTheDownlinkScheduleSaysAndTheirFatesAreTold) {
   EXPECT_EQ(heard.products[2].fate(), v1::PRODUCT_SENT);
   EXPECT_EQ(heard.products[3].id(), "late");
   EXPECT_EQ(heard.products[3].fate(), v1::PRODUCT_RECEIVED);
+  EXPECT_EQ(heard.end.count(), heard.products[3].header().stamp_us() + 1'000'000)
+      << "the run lasts until what was sent is received";
+  std::ifstream in(folder_ / "products.jsonl");
+  std::vector<std::string> fates;
+  for (std::string line; std::getline(in, line);) {
+    const auto told = nlohmann::json::parse(line);
+    fates.push_back(told.value("id", "") + " " + told.value("tier", "") + " " + told.value("fate", ""));
+  }
+  EXPECT_THAT(fates, ElementsAre("early decisional stored", "late residual stored", "late residual sent",
+                                 "late residual received"));
 }
 
 TEST_F(SimService, UploadsAndRecallsTheScenariosGoals) {
@@ -299,6 +310,27 @@ TEST_F(SimService, ReportsWhetherTheEventsCameAsExpected) {
   EXPECT_THAT(report("[hazard.seen, scenario.over]"), HasSubstr("\"met\": true"));
   EXPECT_THAT(report("[scenario.over, hazard.seen]"),
               HasSubstr("after 0 of 2 events, scenario.over was expected, but there was hazard.seen"));
+}
+
+// Orders are the console's in a secure run; a mission may give its world the same right.
+TEST_F(SimService, InASecureRunAScenarioSetsValuesOnlyWithTheConsolesRight) {
+  scenario("stimuli:\n  - {at_s: 10, set: {id: go, timeline: rover.go, value: true}}\n");
+  services::SimRun run({"sim_svc"});
+  services::Node& node = run.add("sim_svc");
+  services::RunSettings settings;
+  settings.mission = folder_;
+  EXPECT_NO_THROW(make_service(node, settings));
+  settings.secure = true;
+  try {
+    make_service(node, settings);
+    ADD_FAILURE() << "it was made";
+  } catch (const mission::FileError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("nominal.yaml:4:"));
+    EXPECT_THAT(error.what(), HasSubstr("roci order set"));
+  }
+  std::ofstream(folder_ / "mission.yaml", std::ios::app)
+      << "format: 1\nname: m\nservices: [{name: sim_svc, clock: master, rights: [world, console]}]\n";
+  EXPECT_NO_THROW(make_service(node, settings));
 }
 
 TEST_F(SimService, EndsAtTheLatestWhenTheTimeIsUp) { EXPECT_EQ(fly({}).end, 2000s); }

@@ -21,12 +21,12 @@ TEST(TopicRights, EveryTopicHasOneRow) {
   EXPECT_THAT(rows, testing::UnorderedElementsAreArray(topics));
 }
 
-TEST(TopicRights, OnlyExecutivesCommand) {
+TEST(TopicRights, OnlyExecutivesAndDedicatedOnesCommand) {
   for (const TopicRights& row : topic_rights()) {
     EXPECT_FALSE(row.writers.empty()) << row.topic;
     EXPECT_FALSE(row.readers.empty()) << row.topic;
     if (row.topic == "roci/command") {
-      EXPECT_EQ(row.writers, std::set{Role::executive});
+      EXPECT_EQ(row.writers, (std::set{Role::executive, Role::commander}));
     }
     if (row.topic == "roci/order") {
       EXPECT_EQ(row.writers, std::set{Role::console});

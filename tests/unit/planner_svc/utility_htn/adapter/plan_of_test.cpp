@@ -63,7 +63,7 @@ TEST_F(PlanOf, ComesBackAsTheBlocksOfWhichItWasMade) {
   EXPECT_EQ(again.last_block, cycle_.last_block());
 }
 
-TEST_F(PlanOf, RemembersWhatIsDoneAndLearned) {
+TEST_F(PlanOf, RemembersWhatIsDoneWithdrawnAndLearned) {
   cycle_.run(Time{0});
   ASSERT_EQ(cycle_.set_value(0, 120), "");
   Time now{0};
@@ -81,6 +81,7 @@ TEST_F(PlanOf, RemembersWhatIsDoneAndLearned) {
       }
   }
   ASSERT_GE(cycle_.past().done.size(), 2U);
+  cycle_.withdraw(testing::task_named(network_, "idle"));
   EXPECT_EQ(recover(network_, chains_, plan(2)).past, cycle_.past());
 }
 

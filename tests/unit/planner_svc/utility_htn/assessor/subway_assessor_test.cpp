@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -173,6 +174,36 @@ TEST_F(SubwayAssessorTest, ASiteIsOpenedWhenTheMapLeadsToIt) {
   EXPECT_EQ(predicted("sample_0_0/next")[2], 0.75);
   EXPECT_THAT(SubwayAssessor(network, chains).objection(chain("open_1"), context({})),
               HasSubstr("does not lead to 'open_1': after what is planned it leads to 'sample_0_0'"));
+}
+
+TEST_F(SubwayAssessorTest, AForecastSaysWhatIsPredicted) {
+  std::mt19937 random(7);
+  const auto any = [&](std::size_t count) { return static_cast<std::uint32_t>(random() % count); };
+  for (int world = 0; world < 300; ++world) {
+    for (double& signature : now) signature = random() % 3 == 0 ? random() % 3 : 0;
+    network.subway.rank = any(2);
+    closed.clear();
+    if (any(2) == 0)
+      closed.push_back(task("sample_" + std::to_string(any(2)) + "_" + std::to_string(any(2))));
+    products.clear();
+    if (any(2) == 0) products.push_back({"image", task("dig_0"), task("sample_0_0"), {0, 0, 0.75}});
+    const SubwayAssessor assessor(network, chains);
+    const auto forecast = assessor.forecast(context({}));
+    std::vector<std::uint32_t> planned;
+    for (int length = 0; length < 5; ++length) {
+      for (std::uint32_t each = 0; each < chains.chains.size(); ++each) {
+        const RankVector predicted = assessor.predicted(each, context(planned));
+        const RankVector forecasted = forecast->predicted(each);
+        if (predicted < RankVector{}) {
+          EXPECT_LT(forecasted, RankVector{}) << chains.chains[each].name;
+        } else {
+          EXPECT_EQ(forecasted, predicted) << chains.chains[each].name;
+        }
+      }
+      planned.push_back(any(chains.chains.size()));
+      length % 2 == 0 ? forecast->plan_next(planned.back()) : forecast->plan(planned);
+    }
+  }
 }
 
 }  // namespace

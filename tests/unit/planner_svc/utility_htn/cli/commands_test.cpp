@@ -14,7 +14,7 @@ namespace roci::planner::utility_htn::cli {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::HasSubstr;
+using testing::HasSubstr, testing::Not;
 
 const fs::path kNetwork = ROCI_SOURCE_DIR "/missions/europa/network-rsm1.yaml";
 
@@ -48,6 +48,50 @@ TEST_F(RociNetwork, TellsFaultsWithPlaceAndRemedy) {
   EXPECT_EQ(chains(folder_ / "bad.yaml", output_), faulty);
   EXPECT_EQ(pack(folder_ / "bad.yaml", folder_ / "bad.bin", output_), faulty);
   EXPECT_FALSE(fs::exists(folder_ / "bad.bin"));
+}
+
+const fs::path kSmall = ROCI_SOURCE_DIR "/tests/missions/lander/network.yaml";
+
+TEST_F(RociNetwork, ExplainsTheFirstPlanAndWhatIsNotInIt) {
+  EXPECT_EQ(explain(kSmall, {}, {}, output_), done);
+  EXPECT_THAT(out_.str(), HasSubstr("the first plan takes 380400 for utility science 1.05"));
+  EXPECT_THAT(out_.str(), Not(HasSubstr("is not planned")));
+  out_.str("");
+  EXPECT_EQ(explain(kSmall, {}, {"lander.battery=250000"}, output_), done);
+  EXPECT_THAT(out_.str(), HasSubstr("sample_near/whole  120 s to 1440 s, 169800, utility science 0.5"));
+  EXPECT_THAT(out_.str(),
+              HasSubstr("'sample_far/whole' is not planned, since it costs 169800 of 'lander.battery' and "
+                        "the plan leaves less than 39400 of 250000"));
+  out_.str("");
+  EXPECT_EQ(explain(kSmall, {"sample_near"}, {"lander.lamp=dark", "dig_w=10"}, output_), done);
+  EXPECT_THAT(out_.str(),
+              HasSubstr("'sample_near/whole' is not planned, since 'dig_near' has no valid start"));
+  EXPECT_THAT(out_.str(), Not(HasSubstr("'sample_far/whole' is not planned"))) << "nobody asked";
+  out_.str("");
+  EXPECT_EQ(explain(kSmall, {}, {"lander.battery=250000"}, json_), done);
+  const auto json = nlohmann::json::parse(out_.str());
+  EXPECT_EQ(json["planned"].size(), 3U);
+  EXPECT_EQ(json["unplanned"][0]["task"], "sample_far");
+  EXPECT_EQ(json["complete"], true);
+}
+
+TEST_F(RociNetwork, ExplainRefusesWhatTheNetworkDoesNotHave) {
+  const std::vector<std::pair<std::string, std::string>> wrong{
+      {"dig_s_far=9000000", "'dig_s_far' is 9e+06, and goes from 60 to 7200"},
+      {"dig_s_far", "'dig_s_far' is not NAME=NUMBER"},
+      {"dig=1", "the network has no parameter 'dig'"},
+      {"lander.battery=-1", "'lander.battery' would begin with -1"},
+      {"lander.lamp=green", "'lander.lamp=green' is no value of the timeline 'lander.lamp'"}};
+  for (const auto& [change, words] : wrong) {
+    errors_.str("");
+    EXPECT_EQ(explain(kSmall, {}, {change}, output_), wrong_use) << change;
+    EXPECT_THAT(errors_.str(), HasSubstr(words));
+  }
+  EXPECT_EQ(explain(kSmall, {"sample"}, {}, output_), wrong_use);
+  EXPECT_THAT(errors_.str(), HasSubstr("there is no task 'sample'"));
+  EXPECT_EQ(explain(kSmall, {"look"}, {}, output_), wrong_use);
+  EXPECT_THAT(errors_.str(), HasSubstr("'look' is a template"));
+  EXPECT_EQ(explain(folder_ / "bad.yaml", {}, {}, output_), faulty);
 }
 
 TEST_F(RociNetwork, ListsChainsForPeopleAndPrograms) {

@@ -5,9 +5,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <memory>
 #include <random>
 #include <set>
 
+#include "planner_svc/utility_htn/assessor/subway_assessor.hpp"
 #include "tests/unit/planner_svc/utility_htn/cycle/toy_network.hpp"
 
 namespace roci::planner::utility_htn::cycle {
@@ -200,8 +202,9 @@ TEST_F(CycleTest, LessEnergyThanForeseenMakesRoomForTheBetterOne) {
   cycle.run(Time{0});
   ASSERT_THAT(requests(cycle), ElementsAre("idle", "sample", "view"));
   cycle.observe(testing::kBattery, 5s, 500);  // 350 J for the sample, 150 J for the view, 300 J for idling
-  cycle.run(10s);
+  const Report report = cycle.run(10s);
   EXPECT_THAT(requests(cycle), Contains("sample"));
+  EXPECT_THAT(report.notes, Contains(HasSubstr("'view/plain' is not planned, since it costs 150 of 'battery'")));
   EXPECT_THAT(cycle.timelines().conflicts(40s, temporal::no_bound), IsEmpty());
 }
 
@@ -298,6 +301,30 @@ TEST_F(CycleTest, WhereTheBudgetDoesNotLastTheMissionEndsBefore) {
     if (!one.begun()) {
       EXPECT_LE(one.links.back().end, end);
     }
+  // It was said to end there, and does not.
+  for (Time now = start + 20s; now < end + 60s; now += 10s) cycle.run(now);
+  EXPECT_GT(block_of_request(cycle, "idle").links.front().end, end + 50s);
+  EXPECT_NO_THROW(cycle.ended(task_id(load.number, 0), end + 60s, true));
+  cycle.run(end + 60s);
+  EXPECT_THAT(cycle.past().done, Contains(chains_.chains[load.chain].task));
+}
+
+// What was left for being there is planned with in the same way when that end has come: half of it, and so on.
+TEST_F(CycleTest, WhatIsLeftOfTheBudgetAtThatEndIsPlannedWith) {
+  Cycle cycle = make();
+  cycle.run(Time{0});
+  const TaskId load = task_id(block_of_request(cycle, "idle").number, 0);
+  const Time start = block_of_request(cycle, "idle").links.front().start;
+  cycle.run(start);
+  cycle.begun(load, start);
+  cycle.observe(testing::kBattery, start, 200);
+  cycle.run(start + 10s);
+  const Time end = block_of_request(cycle, "idle").links.front().end;
+  cycle.observe(testing::kBattery, end + 5s, 80);
+  cycle.run(end + 5s);
+  EXPECT_EQ(block_of_request(cycle, "idle").links.front().end, end + 5s + 40s);
+  cycle.ended(load, end + 10s, true);  // it is on the timelines still
+  EXPECT_EQ(block_of_request(cycle, "idle").links.front().stage, Stage::succeeded);
 }
 
 TEST_F(CycleTest, AValueOutOfItsRangeIsRefused) {
@@ -343,6 +370,87 @@ TEST_F(CycleTest, RandomWorldsNeverMoveWhatIsCommitted) {
       }
     }
   }
+}
+
+// Two sites that are opened before they are sampled, the better one first.
+class TwoSites : public CycleTest {
+ protected:
+  TwoSites() {
+    network_ = toy_network();
+    network_.ranks = {"mission", "science"};
+    for (model::Task& task : network_.tasks) task.is_template = true;
+    for (const int site : {0, 1}) {
+      const std::string name = std::to_string(site);
+      const auto opened = static_cast<temporal::timelines::Index>(network_.timelines.size());
+      network_.timelines.push_back({"site_" + name, temporal::timelines::Kind::state, {"closed", "open"}});
+      network_.timelines.push_back(
+          {"signature_" + name, temporal::timelines::Kind::state, {"unknown", "negative", "positive"}});
+      add("open_" + name)
+          .impacts.push_back({opened, temporal::ImpactKind::assign, temporal::ImpactWhen::at_end, {1}});
+      add("sample_" + name).constraints = {{.timeline = opened, .states = 2}};
+      network_.subway.sites.push_back(
+          {"site_" + name,
+           {site == 0 ? 0.9 : 0.5},
+           {{static_cast<model::TaskIndex>(network_.tasks.size() - 1), opened + 1, {1}}}});
+    }
+    chains_ = flattening::flatten_all(network_);
+    map_ = std::make_unique<assessor::SubwayAssessor>(network_, chains_);
+  }
+
+  model::Task& add(const std::string& id) {
+    model::Task& out = network_.tasks.emplace_back(network_.tasks[task_named(network_, "image")]);
+    out.id = out.name = id;
+    out.is_template = false;
+    out.utility = {{0}, {1}};
+    return out;
+  }
+  Cycle make_with_map() const { return {network_, chains_, *map_, *scheduler_, Time{0}, {}}; }
+
+  // Lets all that is committed run at its time until then; the task of that name fails each time.
+  void fly(Cycle& cycle, Time& now, Time until, const std::string& failing) {
+    for (; now < until; now += 10s) {
+      const Report report = cycle.run(now);
+      notes_.insert(notes_.end(), report.notes.begin(), report.notes.end());
+      for (const std::string& note : report.notes)
+        if (note.find("withdrawn") != std::string::npos) when_given_up_ = requests(cycle);
+      for (const Block& one : std::vector<Block>(cycle.blocks())) {
+        const Link& link = one.links.front();
+        if (link.stage != Stage::committed || link.start > now) continue;
+        const std::string& id = network_.tasks[link.task].id;
+        cycle.begun(task_id(one.number, 0), now);
+        cycle.ended(task_id(one.number, 0), now + 1s, id != failing);
+        if (id != failing) done_.push_back(id);
+        if (id.starts_with("open") && id != failing) cycle.observe(id.ends_with("0") ? 4 : 6, now + 1s, 1);
+      }
+    }
+  }
+
+  std::unique_ptr<assessor::Assessor> map_;
+  std::vector<std::string> notes_, done_;
+  std::vector<std::string> when_given_up_;  // what is placed by the cycle that gives something up
+};
+
+TEST_F(TwoSites, ASiteThatIsGivenUpDoesNotHoldUpTheOthers) {
+  Cycle cycle = make_with_map();
+  Time now{0};
+  fly(cycle, now, 1000s, "open_0");
+  EXPECT_THAT(notes_, Contains("open_0 is withdrawn: it failed 3 times"));
+  EXPECT_THAT(when_given_up_, Contains("open_1")) << "at once";
+  EXPECT_THAT(done_, ElementsAre("open_1", "sample_1"));
+  EXPECT_THAT(cycle.closed(now), Contains(task_named(network_, "sample_0")));
+}
+
+TEST_F(TwoSites, WhatWasGivenUpStaysSoUntilSomebodyAsks) {
+  Cycle first = make_with_map();
+  Time now{0};
+  fly(first, now, 1000s, "open_0");
+  Cycle second = make_with_map();
+  second.resume(first.past(), first.blocks(), first.last_block(), now);
+  EXPECT_THAT(second.waiting(), Not(Contains(task_named(network_, "open_0"))));
+  second.request(task_named(network_, "open_0"));
+  EXPECT_THAT(second.past().withdrawn, IsEmpty());
+  fly(second, now, 2000s, "");
+  EXPECT_THAT(done_, ElementsAre("open_1", "sample_1", "open_0", "sample_0"));
 }
 
 TEST_F(CycleTest, GoesOnWhereAnotherStood) {

@@ -1,0 +1,230 @@
+#include "dedicated_svc/calls_service.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <system_error>
+#include <utility>
+
+#include "dedicated_svc/limits.hpp"
+#include "services/node/make_event.hpp"
+#include "services/publisher.hpp"
+#include "services/wire/plan_wire.hpp"
+
+namespace roci::dedicated {
+namespace {
+
+using method_run::Answer;
+using services::owner::Stage;
+using services::owner::Word;
+using temporal::Value;
+
+std::optional<double> number_of(const std::string& text) {
+  double number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(number)) return {};
+  return number;
+}
+
+const char* error_of(v1::MotionOutcome outcome) {
+  switch (outcome) {
+    case v1::MOTION_FOUND:
+      return "";
+    case v1::MOTION_UNREACHABLE:
+      return "no-path";
+    case v1::MOTION_UNKNOWN:
+      return "path-unknown";
+    default:
+      return "path-invalid";
+  }
+}
+
+Value awaited(const methods::ObserveCall& call) {
+  if (call.arguments.empty() && (call.state == "true" || call.state == "false")) return call.state == "true";
+  return temporal::state(call.state, call.arguments);
+}
+
+Answer answer_of(const Word& word) {
+  Answer answer;
+  answer.values = word.results.values;
+  answer.energy_j = word.results.energy_j;
+  if (word.results.duration) answer.values["duration_s"] = temporal::to_seconds(*word.results.duration);
+  if (word.stage == Stage::completed) return answer;
+  answer.error = word.code.empty() ? "refused" : word.code;
+  answer.reason = word.reason.empty() ? answer.error : answer.error + ", " + word.reason;
+  return answer;
+}
+
+}  // namespace
+
+Calls::Calls(services::Node& node, CallRecord& record, Spots objects)
+    : node_(node),
+      record_(record),
+      events_(services::advertise(node, services::topics::event)),
+      objects_(std::move(objects)),
+      commands_(node, record.epoch() + 1,
+                [this](const services::commander::Issued& issued) { keep([&] { record_.begin(issued); }); }),
+      paths_(services::make_client(node, services::topics::path_request)) {
+  services::subscribe(node, services::topics::observation, [this](const v1::Observation& seen) {
+    if (observed_.size() >= kTimelines && !observed_.contains(seen.timeline())) return;
+    try {
+      observed_[seen.timeline()] = services::wire::from_wire(seen.observed());
+    } catch (const services::wire::WireError&) {
+      return;
+    }
+    if (on_answer_) look();
+  });
+}
+
+void Calls::begin(const method_run::Ask& ask, const services::owner::Request& above, OnAnswer on_answer) {
+  call_ = ask.call;
+  above_ = above;
+  // Unique over the commanders from above and their epochs, and the same whenever this command is carried out again.
+  activity_ = above.key.commander + "/" + std::to_string(above.key.issued_epoch) + "/" + above.key.activity +
+              "/" + std::to_string(ask.number);
+  on_answer_ = std::move(on_answer);
+  timed_out_ = false;
+  ++serial_;
+  timer_ = node_.after(call_.within, [this] { time_out(); });
+  std::visit([this](const auto& call) { start(call); }, call_.what);
+}
+
+void Calls::start(const methods::CommandCall& call) {
+  commands_.call({call.owner, call.robot, call.subsystem, call.command, call.arguments, activity_,
+                  above_.key.attempt, above_.plan, above_.latest_end},
+                 [this](const Word& word) {
+                   keep([this] { record_.end(); });
+                   Answer result = answer_of(word);
+                   if (timed_out_ && word.stage == Stage::cancelled)
+                     result.error = "call-timeout", result.reason = "it took longer than it may";
+                   answer(std::move(result));
+                 });
+}
+
+void Calls::start(const methods::PathCall& call) {
+  const auto from = spot_of(call.from);
+  const auto to = spot_of(call.to);
+  if (!from || !to) return answer_soon({"no-place", "a place of the path is not known", {}, {}});
+  v1::PathRequest request;
+  for (const auto& [spot, pose] :
+       {std::pair{&*from, &request.origin()}, std::pair{&*to, &request.goal_pose()}}) {
+    pose->x_m(spot->x);
+    pose->y_m(spot->y);
+    pose->heading_rad(spot->heading);
+  }
+  path_ = paths_.call(request, call.planner, call_.within,
+                      [this, serial = serial_](const services::CallResult<v1::PathReply>& result) {
+                        if (serial == serial_ && on_answer_) take_path(result);
+                      });
+}
+
+void Calls::take_path(const services::CallResult<v1::PathReply>& result) {
+  if (result.status != services::rpc::CallStatus::ok) return answer({"call-timeout", result.reason, {}, {}});
+  const v1::PathReply& reply = result.reply;
+  Answer out{error_of(reply.outcome()), reply.reason(), {}, {}};
+  out.values = {{"length_m", reply.length_m()},
+                {"expected_s", reply.expected_s()},
+                {"expected_j", reply.expected_j()},
+                {"map_version", static_cast<double>(reply.map_version())}};
+  if (reply.waypoints().size() > 1) {
+    out.values["next_x"] = reply.waypoints()[1].x_m();
+    out.values["next_y"] = reply.waypoints()[1].y_m();
+  }
+  answer(std::move(out));
+}
+
+void Calls::start(const methods::TransformCall& call) {
+  const auto robot = spot_of({"", call.robot, "", ""});
+  const auto place = spot_of(call.place);
+  if (!robot || !place)
+    return answer_soon({"no-pose", "a pose was never observed, or a place is unknown", {}, {}});
+  const double dx = place->x - robot->x, dy = place->y - robot->y;
+  const double heading = dx == 0 && dy == 0 ? robot->heading : std::atan2(dy, dx);
+  Answer out;
+  out.values = {{"x", std::cos(robot->heading) * dx + std::sin(robot->heading) * dy},
+                {"y", -std::sin(robot->heading) * dx + std::cos(robot->heading) * dy},
+                {"bearing_rad", std::remainder(heading - robot->heading, 2 * M_PI)},
+                {"range_m", std::hypot(dx, dy)},
+                {"heading_rad", heading},
+                {"world_x", place->x},
+                {"world_y", place->y}};
+  answer_soon(std::move(out));
+}
+
+void Calls::start(const methods::ObserveCall&) { look(); }
+
+void Calls::start(const methods::WaitCall& call) { answer_after(call.time, {}); }
+
+// What is awaited may be so already, or become so by any observation.
+void Calls::look() {
+  const auto* call = std::get_if<methods::ObserveCall>(&call_.what);
+  if (!call) return;
+  const auto seen = observed_.find(call->timeline);
+  if (seen == observed_.end()) return;
+  if (!call->state.empty() && seen->second != awaited(*call)) return;
+  Answer out;
+  if (std::holds_alternative<double>(seen->second)) out.values["value"] = seen->second;
+  answer_soon(std::move(out));
+}
+
+void Calls::time_out() {
+  timer_.reset();
+  timed_out_ = true;
+  break_off();
+}
+
+void Calls::break_off() {
+  if (!on_answer_) return;
+  if (std::holds_alternative<methods::CommandCall>(call_.what))
+    return commands_.cancel(activity_, above_.key.attempt);
+  if (std::holds_alternative<methods::PathCall>(call_.what)) paths_.cancel(path_);
+  answer_soon({timed_out_ ? "call-timeout" : "cancelled", "it was awaited no longer", {}, {}});
+}
+
+void Calls::answer_after(temporal::Duration wait, Answer result) {
+  node_.after(wait, [this, serial = serial_, result = std::move(result)] {
+    if (serial == serial_ && on_answer_) answer(result);
+  });
+}
+
+void Calls::answer(Answer result) {
+  if (timer_) node_.cancel(*std::exchange(timer_, std::nullopt));
+  std::exchange(on_answer_, nullptr)(result);
+}
+
+void Calls::settle(std::function<void()> settled) {
+  if (!record_.open()) return settled();
+  commands_.settle(*record_.open(), [this, settled = std::move(settled)](const Word&) {
+    keep([this] { record_.end(); });
+    settled();
+  });
+}
+
+// A robot that can still be commanded beats one that cannot.
+void Calls::keep(const std::function<void()>& write) try { write(); } catch (const std::system_error& error) {
+  events_.write(services::node::make_event(v1::SEVERITY_WARNING, "calls.unwritten", error.what()));
+}
+
+std::optional<double> Calls::number(const std::string& timeline) const {
+  const auto seen = observed_.find(timeline);
+  const double* number = seen == observed_.end() ? nullptr : std::get_if<double>(&seen->second);
+  return number ? std::optional(*number) : std::nullopt;
+}
+
+std::optional<Spot> Calls::spot_of(const methods::Place& place) const {
+  if (!place.object.empty()) {
+    const auto found = objects_.find(place.object);
+    return found == objects_.end() ? std::nullopt : std::optional(found->second);
+  }
+  if (!place.robot.empty()) {
+    const auto x = number(place.robot + ".x"), y = number(place.robot + ".y");
+    const auto heading = number(place.robot + ".heading");
+    if (!x || !y || !heading) return {};
+    return Spot{*x + std::cos(*heading) * place.ahead_m - std::sin(*heading) * place.left_m,
+                *y + std::sin(*heading) * place.ahead_m + std::cos(*heading) * place.left_m, *heading};
+  }
+  const auto x = number_of(place.x), y = number_of(place.y);
+  if (!x || !y) return {};
+  return Spot{*x, *y, 0};
+}
+
+}  // namespace roci::dedicated

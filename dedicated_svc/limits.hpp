@@ -1,0 +1,11 @@
+// How far the tables of a dedicated executive may grow by what comes from the wire (docs/resilience.md, "What is bounded").
+#pragma once
+
+#include <cstddef>
+
+namespace roci::dedicated {
+
+/// Timelines of which the newest value is known; of those beyond nothing is.
+inline constexpr std::size_t kTimelines = 5'000;
+
+}  // namespace roci::dedicated

@@ -1,0 +1,102 @@
+// One command under way (R145, R146): which call comes next, what its answer means, when it is over. Pure: answers of
+// calls go in, what to call comes out.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/temporal/value.hpp"
+#include "dedicated_svc/methods/method.hpp"
+
+namespace roci::dedicated::method_run {
+
+/// What was observed last, by timeline.
+using Observations = std::map<std::string, temporal::Value>;
+
+/// Is a call with all names filled in.
+struct Ask {
+  /// Counts the calls of this run from 1, so that the same answers give the same numbers.
+  std::uint32_t number = 0;
+  methods::Call call;
+};
+
+/// Is how a call went.
+struct Answer {
+  std::string error{};   ///< a stable code; empty: it went well
+  std::string reason{};  ///< in words
+  std::map<std::string, temporal::Value> values{};
+  std::optional<double> energy_j{};
+};
+
+/// Is how the command ended.
+struct End {
+  std::string error{};  ///< empty: it is carried out. The failed call's, or wrong-value (R145)
+  std::string reason{};
+  /// Of success, what `results` says; else what the failed call brought.
+  std::map<std::string, temporal::Value> values{};
+  std::optional<double> energy_j{};  ///< of all calls, repairs included; empty: some call told none
+};
+
+/// Says what comes next: a call, or the end. `repairing` is not empty where the call begins a repair: whoever hosts the
+/// run must be allowed to (owner::CommandServer::repair), else it says so by forbid_repair().
+struct Step {
+  std::optional<Ask> ask{};
+  std::optional<End> end{};
+  std::string repairing{};
+};
+
+/// The method outlives the run.
+class MethodRun {
+ public:
+  /// The arguments are those of the command; all that the method lists are among them.
+  MethodRun(const methods::Method& method, std::map<std::string, std::string> arguments);
+
+  /// The first call.
+  Step begin();
+  /// Takes the answer to the call that was asked for last.
+  Step take(const Answer& answer, const Observations& observed);
+  /// Instead of the repair's first call: there is no time for it, so the error that it was for stands.
+  End forbid_repair();
+
+  /// The state to be shown while it runs, when it is carried out, and where it failed with this error.
+  temporal::Value during() const;
+  temporal::Value then(const methods::Shown& rest) const;
+  temporal::Value failed(const std::string& error, const methods::Shown& rest) const;
+
+ private:
+  // Where the run stands: in the method's own calls, or in those of a repair.
+  struct Position {
+    const std::vector<methods::Call>* calls;
+    std::size_t index;
+  };
+
+  const methods::Call& current() const { return (*at_.calls)[at_.index]; }
+  Step ask();
+  Step advance();
+  Step fail(const Answer& answer, const Observations& observed);
+  Step wrong_value(const std::string& reason, std::map<std::string, temporal::Value> values);
+  bool fits(const methods::Repair& repair, const Observations& observed) const;
+  End ended(std::string error, std::string reason, std::map<std::string, temporal::Value> values) const;
+  std::optional<std::string> value_of(const std::string& name) const;
+  std::optional<methods::Call> filled(const methods::Call& call) const;
+  temporal::Value shown(const methods::Shown& what) const;
+
+  const methods::Method* method_;
+  std::map<std::string, std::string> arguments_;
+  Position at_;
+  std::uint32_t number_ = 0;
+  std::optional<std::size_t> go_on_;  // during a repair: index of the method's call that follows it
+  End error_;                         // that is being repaired
+  std::map<std::string, std::uint32_t> repaired_;  // how often, as the method names them
+  std::map<std::string, temporal::Value> values_;  // by "call.value"
+  double energy_j_ = 0;
+  bool energy_known_ = true;
+};
+
+/// Returns a value as a template gets it: a number as short as it reads back the same, a state by its name.
+std::string to_argument(const temporal::Value& value);
+
+}  // namespace roci::dedicated::method_run

@@ -1,0 +1,221 @@
+#include "dedicated_svc/methods/methods_file.hpp"
+
+#include <algorithm>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "dedicated_svc/methods/fill.hpp"
+
+namespace roci::dedicated::methods {
+namespace {
+
+using mission::Entry;
+
+constexpr double kLongestWait = 1e7;  // seconds
+
+// What a template may name here: arguments of the command, and calls whose values it has.
+struct Known {
+  std::set<std::string> arguments;
+  std::set<std::string> calls;
+};
+
+Template read_template(const Entry& entry, const Known& known) {
+  const std::string text = entry.text();
+  const auto names = names_in(text);
+  if (!names) entry.fail("'" + text + "' has braces that do not match; write {argument} or {call.value}");
+  for (const std::string& name : *names) {
+    const std::size_t dot = name.find('.');
+    if (dot == std::string::npos) {
+      if (!known.arguments.contains(name))
+        entry.fail("'{" + name + "}' is no argument of this command; list it under 'arguments'");
+    } else if (!known.calls.contains(name.substr(0, dot))) {
+      entry.fail("'{" + name + "}' names no call that has ended by then; values come from calls further up");
+    }
+  }
+  return text;
+}
+
+Template template_or_none(const Entry& entry, std::string_view key, const Known& known) {
+  const auto value = entry.find(key);
+  return value ? read_template(*value, known) : Template{};
+}
+
+Place read_place(const Entry& entry, const Known& known) {
+  entry.allow_only({"object", "robot", "x", "y", "ahead_m", "left_m"});
+  Place place{template_or_none(entry, "object", known),
+              template_or_none(entry, "robot", known),
+              template_or_none(entry, "x", known),
+              template_or_none(entry, "y", known),
+              entry.number_or("ahead_m", 0),
+              entry.number_or("left_m", 0)};
+  const int ways = !place.object.empty() + !place.robot.empty() + (!place.x.empty() || !place.y.empty());
+  if (ways != 1 || place.x.empty() != place.y.empty())
+    entry.fail("a place is either 'object', or 'robot', or 'x' and 'y'");
+  if (place.robot.empty() && (place.ahead_m != 0 || place.left_m != 0))
+    entry.fail("'ahead_m' and 'left_m' are of a robot; name it by 'robot'");
+  return place;
+}
+
+std::map<std::string, Range> read_ranges(const Entry& entry) {
+  std::map<std::string, Range> ranges;
+  entry.each_field([&](const std::string& name, const Entry& value) {
+    value.allow_only({"at_least", "at_most"});
+    Range range;
+    range.least = value.number_or("at_least", range.least);
+    range.most = value.number_or("at_most", range.most);
+    if (range.least > range.most) value.fail("'at_least' must not be above 'at_most'");
+    ranges[name] = range;
+  });
+  return ranges;
+}
+
+CommandCall read_command(const Entry& entry, const Known& known) {
+  entry.allow_only({"owner", "robot", "subsystem", "name", "arguments"});
+  CommandCall call{entry.at("owner").text(), template_or_none(entry, "robot", known),
+                   entry.at("subsystem").text(), entry.at("name").text()};
+  if (const auto arguments = entry.find("arguments"))
+    arguments->each_field([&](const std::string& name, const Entry& value) {
+      call.arguments[name] = read_template(value, known);
+    });
+  return call;
+}
+
+ObserveCall read_observe(const Entry& entry, const Known& known) {
+  entry.allow_only({"timeline", "is"});
+  ObserveCall call{read_template(entry.at("timeline"), known)};
+  if (const auto is = entry.find("is")) {
+    const auto items = is->items();
+    if (items.empty()) is->fail("'is' must name a state: [state, argument, …]");
+    call.state = read_template(items.front(), known);
+    for (auto item = items.begin() + 1; item != items.end(); ++item)
+      call.arguments.push_back(read_template(*item, known));
+  }
+  return call;
+}
+
+temporal::Duration read_time(const Entry& entry, const std::string& name) {
+  const double seconds = entry.number();
+  if (seconds <= 0 || seconds > kLongestWait) entry.fail("'" + name + "' must be a positive time in seconds");
+  return temporal::seconds(seconds);
+}
+
+Call read_call(const Entry& entry, const Known& known) {
+  entry.allow_only({"name", "command", "path", "transform", "observe", "wait_s", "within_s", "check"});
+  Call call;
+  call.name = entry.at("name").text();
+  if (call.name.empty() || call.name.find_first_of(".{}") != std::string::npos)
+    entry.at("name").fail("'" + call.name + "' is no name of a call; use letters, digits, '_' and '-'");
+  int kinds = 0;
+  if (const auto command = entry.find("command")) ++kinds, call.what = read_command(*command, known);
+  if (const auto path = entry.find("path")) {
+    path->allow_only({"planner", "from", "to"});
+    ++kinds, call.what = PathCall{path->at("planner").text(), read_place(path->at("from"), known),
+                                  read_place(path->at("to"), known)};
+  }
+  if (const auto transform = entry.find("transform")) {
+    transform->allow_only({"place", "robot"});
+    ++kinds, call.what = TransformCall{read_place(transform->at("place"), known),
+                                       read_template(transform->at("robot"), known)};
+  }
+  if (const auto observe = entry.find("observe")) ++kinds, call.what = read_observe(*observe, known);
+  if (const auto wait = entry.find("wait_s")) ++kinds, call.what = WaitCall{read_time(*wait, "wait_s")};
+  if (kinds != 1) entry.fail("a call has one of 'command', 'path', 'transform', 'observe' and 'wait_s'");
+  if (const auto within = entry.find("within_s")) call.within = read_time(*within, "within_s");
+  if (const auto check = entry.find("check")) call.check = read_ranges(*check);
+  return call;
+}
+
+// Adds the names of the calls to what is known after them.
+std::vector<Call> read_calls(const Entry& entry, Known& known, std::set<std::string>& names) {
+  std::vector<Call> calls;
+  for (const Entry& item : entry.items()) {
+    calls.push_back(read_call(item, known));
+    if (!names.insert(calls.back().name).second)
+      item.at("name").fail("call '" + calls.back().name + "' stands twice in this method; names are unique");
+    if (names.size() > kCalls) item.fail("a method has at most " + std::to_string(kCalls) + " calls");
+    known.calls.insert(calls.back().name);
+  }
+  if (calls.empty()) entry.fail("there must be a call");
+  return calls;
+}
+
+Shown read_shown(const Entry& entry, const Known& known) {
+  const auto items = entry.items();
+  if (items.empty()) entry.fail("a state is written as [name, argument, …]");
+  Shown shown{items.front().text(), {}};
+  for (auto item = items.begin() + 1; item != items.end(); ++item)
+    shown.arguments.push_back(read_template(*item, known));
+  return shown;
+}
+
+Repair read_repair(const Entry& entry, const Method& method, Known known, std::set<std::string>& names) {
+  entry.allow_only({"calls", "then", "at_most", "needs"});
+  Repair repair;
+  repair.calls = read_calls(entry.at("calls"), known, names);
+  if (const auto then = entry.find("then")) {
+    repair.then = then->text();
+    if (std::ranges::none_of(method.calls, [&](const Call& call) { return call.name == repair.then; }))
+      then->fail("the method has no call '" + repair.then + "' to go on with");
+  }
+  if (const auto most = entry.find("at_most")) {
+    if (most->integer() < 1 || most->integer() > 1000) most->fail("'at_most' must be from 1 to 1000");
+    repair.at_most = static_cast<std::uint32_t>(most->integer());
+  }
+  if (const auto needs = entry.find("needs")) repair.needs = read_ranges(*needs);
+  return repair;
+}
+
+Method read_method(const std::string& command, const Entry& entry) {
+  entry.allow_only({"arguments", "calls", "repairs", "results", "during", "then", "failed"});
+  Method method;
+  method.command = command;
+  if (const auto arguments = entry.find("arguments")) method.arguments = arguments->texts();
+  Known known{{method.arguments.begin(), method.arguments.end()}, {}};
+  if (const auto during = entry.find("during")) method.during = read_shown(*during, known);
+  if (const auto failed = entry.find("failed"))
+    failed->each_field([&](const std::string& error, const Entry& value) {
+      method.failed[error] = read_shown(value, known);
+    });
+  std::set<std::string> names;
+  method.calls = read_calls(entry.at("calls"), known, names);
+  if (const auto repairs = entry.find("repairs"))
+    repairs->each_field([&](const std::string& error, const Entry& value) {
+      const std::string call = error.substr(0, error.find('.'));
+      if (call != error &&
+          std::ranges::none_of(method.calls, [&](const Call& one) { return one.name == call; }))
+        value.fail("the method has no call '" + call + "' whose error this could repair");
+      method.repairs[error] = read_repair(value, method, known, names);
+    });
+  if (const auto then = entry.find("then")) method.then = read_shown(*then, known);
+  if (const auto results = entry.find("results"))
+    results->each_field([&](const std::string& name, const Entry& value) {
+      const std::string text = read_template(value, known);
+      if (names_in(text)->size() != 1 || text.front() != '{' || text.back() != '}' ||
+          text.find('.') == std::string::npos)
+        value.fail("a result is one value of one call: \"{call.value}\"");
+      method.results[name] = text.substr(1, text.size() - 2);
+    });
+  return method;
+}
+
+}  // namespace
+
+Methods read_methods(const Entry& section) {
+  section.allow_only({"timeline", "subsystem", "rest", "methods"});
+  Methods out;
+  out.timeline = section.at("timeline").text();
+  out.subsystem = section.at("subsystem").text();
+  if (const auto rest = section.find("rest")) out.rest = read_shown(*rest, {});
+  const Entry list = section.at("methods");
+  list.each_field([&](const std::string& command, const Entry& entry) {
+    if (command == "stop") entry.fail("'stop' is understood by every owner; give the method another name");
+    out.methods[command] = read_method(command, entry);
+    if (out.methods.size() > kMethods)
+      entry.fail("there are at most " + std::to_string(kMethods) + " methods");
+  });
+  if (out.methods.empty()) list.fail("there must be a method");
+  return out;
+}
+
+}  // namespace roci::dedicated::methods

@@ -1,0 +1,114 @@
+// One executive commands two rovers through dedicated executives (R128, R145, R146), by the programs that users start.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "tests/scenario/flight.hpp"
+
+namespace roci::scenario {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using ::testing::Contains, ::testing::ElementsAre, ::testing::HasSubstr, ::testing::StartsWith;
+
+constexpr char kMission[] = ROCI_SOURCE_DIR "/tests/missions/convoy";
+
+class Convoy : public ::testing::TestWithParam<const char*> {
+ protected:
+  ~Convoy() override { fs::remove_all(folder_); }
+
+  // Each has the events that its scenario lists, and the same trace on every transport.
+  void expect_as_listed(const std::string& scenario) {
+    static std::map<std::string, std::string> traces;
+    const Flight flight =
+        fly(kMission, GetParam(), 1, "--scenario " + scenario + " --run-folder " + folder_.string());
+    EXPECT_EQ(flight.exit_code, 0) << flight.summary.dump();
+    EXPECT_EQ(flight.summary["expected"].value("fault", "no report"), "");
+    const std::string trace = flight.summary.value("trace_sha256", "");
+    EXPECT_EQ(traces.emplace(scenario, trace).first->second, trace);
+  }
+
+  const fs::path folder_ = fs::temp_directory_path() / ("roci_convoy_" + std::to_string(::getpid()));
+};
+
+TEST_P(Convoy, TheScoutTriesEachStretchAndThePrimaryFollows) {
+  expect_as_listed("nominal");
+  EXPECT_THAT(deeds_of(folder_),
+              ElementsAre("drive w1", "press w1", "drive w1", "drive w2", "press w2", "drive w2"));
+}
+
+TEST_P(Convoy, ARepairIsInvisibleAbove) {
+  expect_as_listed("repaired");
+  EXPECT_THAT(deeds_of(folder_), ElementsAre("drive w1", "back_off ", "drive w1", "press w1", "drive w1",
+                                             "drive w2", "press w2", "drive w2"));
+}
+
+TEST_P(Convoy, WhatCannotBeRepairedGoesUp) { expect_as_listed("escalated"); }
+
+INSTANTIATE_TEST_SUITE_P(Transports, Convoy, ::testing::Values("inproc", "fastdds", "cyclonedds", "mixed"),
+                         [](const auto& dds) { return std::string(dds.param); });
+
+class ConvoyReport : public ::testing::Test {
+ protected:
+  ~ConvoyReport() override { fs::remove_all(folder_); }
+  const fs::path folder_ = fs::temp_directory_path() / ("roci_convoy_report_" + std::to_string(::getpid()));
+};
+
+// R129, R144: what became of the plan comes back with real times and results.
+TEST_F(ConvoyReport, ThePlanThatBrokeIsToldAsItWasExecuted) {
+  const Ended ended =
+      run(ROCI_SOURCE_DIR "/tests/scenario/executed_plan.sh \"$(dirname \"$(command -v roci-launch)\")\" " +
+          std::string(kMission) + " fastdds " + folder_.string() + " --scenario escalated --speed 30");
+  const json plan = json::parse(ended.output, nullptr, false);
+  ASSERT_TRUE(plan.is_object()) << ended.output;
+  EXPECT_EQ(plan["outcome"], "broken");
+  EXPECT_THAT(plan.value("reason", ""), HasSubstr("out of order"));
+  ASSERT_EQ(plan["activities"].size(), 4U);
+  const json& scouted = plan["activities"][0];
+  EXPECT_EQ(scouted["state"], "failed");
+  EXPECT_EQ(scouted["started_s"], 15);
+  EXPECT_THAT(scouted.value("cause", ""), HasSubstr("press: fault"));
+  EXPECT_TRUE(scouted["values"].contains("duration_s")) << scouted;
+  EXPECT_FALSE(plan["activities"][1].contains("started_s"));
+}
+
+class ConvoyKills : public ::testing::TestWithParam<const char*> {
+ protected:
+  ~ConvoyKills() override { fs::remove_all(folder_); }
+  const fs::path folder_ = fs::temp_directory_path() / ("roci_convoy_kills_" + std::to_string(::getpid()));
+};
+
+// It dies while its scout drives. What it commanded is ended before anything new begins, and nothing is done under one key twice.
+TEST_P(ConvoyKills, ADedicatedExecutiveThatDiesEndsWhatItHadBegun) {
+  const Ended ended =
+      run(ROCI_SOURCE_DIR "/tests/scenario/kill_in_flight.sh \"$(dirname \"$(command -v roci-launch)\")\" " +
+          std::string(kMission) + " " + GetParam() + " " + folder_.string() +
+          " \"dedicated_svc.*scout\" w1 --scenario nominal --speed 200");
+  EXPECT_THAT(ended.output, StartsWith("killed "));
+  EXPECT_EQ(last_line_as_json(ended.output).value("result", ""), "achieved") << ended.output;
+  const std::vector<std::string> events = journaled_events(folder_ / "journal.sqlite");
+  EXPECT_THAT(events, Contains(StartsWith("goal.achieved")));
+  std::vector<std::string> keys;
+  std::string line;
+  for (std::istringstream lines(text_of(folder_ / "effects.jsonl")); std::getline(lines, line);) {
+    const json deed = json::parse(line);
+    keys.push_back(deed["activity"].get<std::string>() + deed["attempt"].dump() +
+                   deed["commander"].get<std::string>());
+  }
+  std::ranges::sort(keys);
+  EXPECT_TRUE(std::ranges::adjacent_find(keys) == keys.end());
+}
+
+INSTANTIATE_TEST_SUITE_P(Transports, ConvoyKills, ::testing::Values("fastdds", "cyclonedds", "mixed"),
+                         [](const auto& dds) { return std::string(dds.param); });
+
+}  // namespace
+}  // namespace roci::scenario

@@ -1,0 +1,211 @@
+// R145, R146: call order, failed and wrong values, repairs.
+#include "dedicated_svc/method_run/method_run.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/mission/entry.hpp"
+#include "dedicated_svc/methods/methods_file.hpp"
+
+namespace roci::dedicated::method_run {
+namespace {
+
+using methods::CommandCall;
+using methods::Methods;
+using temporal::state;
+using testing::HasSubstr;
+
+// TurnToWP as section 5.2 of the paper tells it, and a traverse that can be repaired.
+constexpr char kMethods[] = R"(
+dedicated:
+  timeline: primary.locomotion
+  subsystem: locomotion
+  methods:
+    TurnToWP:
+      arguments: [wp]
+      calls:
+        - {name: next, path: {planner: nav, from: {robot: primary}, to: {object: "{wp}"}}}
+        - {name: local, transform: {place: {x: "{next.next_x}", y: "{next.next_y}"}, robot: primary}}
+        - name: turn
+          command: {owner: sim_svc, robot: primary, subsystem: nav, name: turn, arguments: {heading: "{local.heading_rad}"}}
+          check: {final_error_rad: {at_most: 0.1}}
+      during: [turning, "{wp}"]
+      then: [facing, "{wp}"]
+      results: {length_m: "{next.length_m}"}
+    Traverse:
+      arguments: [wp]
+      calls:
+        - {name: path, path: {planner: nav, from: {robot: scout}, to: {object: "{wp}"}}}
+        - {name: drive, command: {owner: sim_svc, robot: scout, subsystem: nav, name: drive, arguments: {to: "{wp}"}}}
+      repairs:
+        no-go:
+          calls:
+            - {name: circle, observe: {timeline: scout.map}}
+            - {name: other, path: {planner: primary_nav, from: {robot: primary}, to: {object: "{wp}"}}}
+          then: path
+          at_most: 2
+          needs: {scout.battery: {at_least: 100}}
+      failed: {no-go: [hazard-detected, "{wp}"], "*": [failed]}
+)";
+
+const Methods& example() {
+  static const Methods methods =
+      methods::read_methods(mission::Entry::parse(kMethods, "mission.yaml").at("dedicated"));
+  return methods;
+}
+
+Answer numbers(std::map<std::string, double> values) {
+  Answer answer;
+  for (const auto& [name, value] : values) answer.values[name] = value;
+  return answer;
+}
+
+Answer error(const std::string& code) { return {code, "as told", {}, 10.0}; }
+
+std::string asked(const Step& step) {
+  if (!step.ask) return step.end ? "end " + step.end->error : "nothing";
+  return std::to_string(step.ask->number) + " " + step.ask->call.name;
+}
+
+const Observations kRich{{"scout.battery", 1000.0}};
+
+TEST(MethodRun, CallsInOrderAndHandsValuesOn) {
+  MethodRun run(example().methods.at("TurnToWP"), {{"wp", "w3"}});
+  EXPECT_EQ(run.during(), state("turning", {"w3"}));
+  Step step = run.begin();
+  EXPECT_EQ(asked(step), "1 next");
+  EXPECT_EQ(std::get<methods::PathCall>(step.ask->call.what).to.object, "w3");
+  step = run.take(numbers({{"next_x", 1.5}, {"next_y", -2}, {"length_m", 4}}), {});
+  EXPECT_EQ(asked(step), "2 local");
+  EXPECT_EQ(std::get<methods::TransformCall>(step.ask->call.what).place.x, "1.5");
+  EXPECT_EQ(std::get<methods::TransformCall>(step.ask->call.what).place.y, "-2");
+  step = run.take(numbers({{"heading_rad", 0.1}}), {});
+  EXPECT_EQ(std::get<CommandCall>(step.ask->call.what).arguments.at("heading"), "0.1");
+  Answer turned = numbers({{"final_error_rad", 0.01}});
+  turned.energy_j = 30;
+  step = run.take(turned, {});
+  ASSERT_TRUE(step.end);
+  EXPECT_EQ(step.end->error, "");
+  EXPECT_EQ(step.end->values, (std::map<std::string, temporal::Value>{{"length_m", 4.0}}));
+  EXPECT_EQ(step.end->energy_j, 30);
+  EXPECT_EQ(run.then(example().rest), state("facing", {"w3"}));
+}
+
+TEST(MethodRun, AFailedCallAndAWrongOrMissingValueEndIt) {
+  const auto after_two = [](const Answer& third) {
+    MethodRun run(example().methods.at("TurnToWP"), {{"wp", "w3"}});
+    run.begin();
+    run.take(numbers({{"next_x", 1}, {"next_y", 2}, {"length_m", 4}}), {});
+    run.take(numbers({{"heading_rad", 0.1}}), {});
+    return *run.take(third, {}).end;
+  };
+  EXPECT_EQ(after_two(error("stalled")).error, "stalled");
+  EXPECT_EQ(after_two(error("stalled")).reason, "turn: as told");
+  const End wrong = after_two(numbers({{"final_error_rad", 0.5}}));
+  EXPECT_EQ(wrong.error, "wrong-value");
+  EXPECT_EQ(wrong.reason, "turn: turn brought final_error_rad = 0.5");
+  EXPECT_EQ(wrong.values.at("final_error_rad"), temporal::Value(0.5)) << "what was wrong is told upwards";
+  EXPECT_THAT(after_two(numbers({})).reason, HasSubstr("turn brought no number 'final_error_rad'"));
+
+  MethodRun run(example().methods.at("TurnToWP"), {{"wp", "w3"}});
+  run.begin();
+  const Step step = run.take(numbers({{"length_m", 4}}), {});
+  ASSERT_TRUE(step.end) << "the way-point that the transform needs was not brought";
+  EXPECT_EQ(step.end->error, "wrong-value");
+}
+
+TEST(MethodRun, ARepairRunsAndGoesOnWhereItSays) {
+  MethodRun run(example().methods.at("Traverse"), {{"wp", "w3"}});
+  EXPECT_EQ(run.during(), state("Traverse", {"w3"}));
+  EXPECT_EQ(asked(run.begin()), "1 path");
+  EXPECT_EQ(asked(run.take({}, kRich)), "2 drive");
+  Step step = run.take(error("no-go"), kRich);
+  EXPECT_EQ(asked(step), "3 circle");
+  EXPECT_EQ(step.repairing, "drive: as told");
+  step = run.take({}, kRich);
+  EXPECT_EQ(asked(step), "4 other");
+  EXPECT_EQ(step.repairing, "") << "one repair is said once";
+  EXPECT_EQ(asked(run.take({}, kRich)), "5 path");
+  EXPECT_EQ(asked(run.take({}, kRich)), "6 drive");
+  Answer there;
+  there.energy_j = 100;
+  step = run.take(there, kRich);
+  ASSERT_TRUE(step.end);
+  EXPECT_EQ(step.end->error, "");
+  EXPECT_EQ(step.end->energy_j, 110) << "what the failed try drew counts, too";
+}
+
+TEST(MethodRun, AnErrorThatIsNotRepairedAnyMoreStands) {
+  MethodRun run(example().methods.at("Traverse"), {{"wp", "w3"}});
+  run.begin();
+  run.take({}, kRich);
+  for (int repair = 0; repair < 2; ++repair) {
+    run.take(error("no-go"), kRich);
+    run.take({}, kRich);
+    run.take({}, kRich);
+    EXPECT_THAT(asked(run.take({}, kRich)), HasSubstr("drive"));
+  }
+  const Step step = run.take(error("no-go"), kRich);
+  ASSERT_TRUE(step.end) << "at most two repairs";
+  EXPECT_EQ(step.end->error, "no-go");
+  EXPECT_EQ(run.failed("no-go", example().rest), state("hazard-detected", {"w3"}));
+  EXPECT_EQ(run.failed("stalled", example().rest), state("failed"));
+}
+
+// The one for a call goes before the one for any.
+TEST(MethodRun, ARepairMayBeForOneCallAlone) {
+  const Methods methods =
+      methods::read_methods(mission::Entry::parse("dedicated: {timeline: t, subsystem: s, methods: {go: "
+                                                  "{calls: [{name: a, wait_s: 1}, {name: b, wait_s: 1}], "
+                                                  "repairs: {fault: {calls: [{name: any, wait_s: 1}]}, "
+                                                  "a.fault: {calls: [{name: own, wait_s: 1}]}}}}}",
+                                                  "m")
+                                .at("dedicated"));
+  MethodRun run(methods.methods.at("go"), {});
+  run.begin();
+  EXPECT_EQ(asked(run.take(error("fault"), {})), "2 own");
+  EXPECT_EQ(asked(run.take({}, {})), "3 a");
+  EXPECT_EQ(asked(run.take({}, {})), "4 b");
+  EXPECT_EQ(asked(run.take(error("fault"), {})), "5 any");
+  EXPECT_EQ(asked(run.take({}, {})), "6 b");
+}
+
+TEST(MethodRun, WithoutWhatItNeedsNothingIsRepaired) {
+  for (const Observations& poor : {Observations{}, Observations{{"scout.battery", 99.0}}}) {
+    MethodRun run(example().methods.at("Traverse"), {{"wp", "w3"}});
+    run.begin();
+    run.take({}, poor);
+    EXPECT_EQ(asked(run.take(error("no-go"), poor)), "end no-go");
+  }
+}
+
+TEST(MethodRun, AFailureWithinARepairIsToldWithBothReasons) {
+  MethodRun run(example().methods.at("Traverse"), {{"wp", "w3"}});
+  run.begin();
+  run.take({}, kRich);
+  run.take(error("no-go"), kRich);
+  run.take({}, kRich);
+  const Step step = run.take(error("no-path"), kRich);
+  ASSERT_TRUE(step.end);
+  EXPECT_EQ(step.end->error, "no-go") << "what is above knows this error";
+  EXPECT_EQ(step.end->reason, "drive: as told; its repair failed in other: as told");
+}
+
+TEST(MethodRun, ARepairWithoutTimeLeavesTheError) {
+  MethodRun run(example().methods.at("Traverse"), {{"wp", "w3"}});
+  run.begin();
+  run.take({}, kRich);
+  run.take(error("no-go"), kRich);
+  EXPECT_EQ(run.forbid_repair().error, "no-go");
+  EXPECT_THAT(run.forbid_repair().reason, HasSubstr("no time to repair"));
+}
+
+TEST(MethodRun, NumbersBecomeTextThatReadsBackTheSame) {
+  EXPECT_EQ(to_argument(0.1), "0.1");
+  EXPECT_EQ(to_argument(-1e-7), "-1e-07");
+  EXPECT_EQ(to_argument(state("idle-at", {"w1"})), "idle-at");
+  EXPECT_EQ(to_argument(true), "true");
+}
+
+}  // namespace
+}  // namespace roci::dedicated::method_run
