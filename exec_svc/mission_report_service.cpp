@@ -3,7 +3,6 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-
 namespace roci::exec {
 
 using mission::MissionModel;

@@ -31,6 +31,7 @@ namespace owner = services::owner;
 // The key of the command that tells owners a leader's epoch; no activity has it.
 constexpr char kEpochKey[] = "epoch";
 
+constexpr std::size_t kToldExecuted = 8;
 constexpr std::size_t kSentKeys = 256;    // more are never awaited at a time
 constexpr std::uint64_t kMostSteps = 64;  // of a climb
 
@@ -45,6 +46,7 @@ OutputPublisher::OutputPublisher(services::Node& node, const MissionModel& missi
       commands_(services::advertise(node, topics::command)),
       goal_statuses_(services::advertise(node, topics::goal_status)),
       plans_(services::advertise(node, topics::plan)),
+      executed_(services::advertise(node, topics::executed_plan)),
       steps_(services::advertise(node, topics::step_status)),
       missions_(services::advertise(node, topics::mission_status)),
       events_(services::advertise(node, topics::event)) {}
@@ -56,6 +58,7 @@ void OutputPublisher::send_goals(const Reactor& reactor) const {
 
 void OutputPublisher::send_plan(const Reactor& reactor) const {
   if (reactor.plan().version != 0) plans_.write(plan_sample(reactor.plan(), reactor.planned_actions()));
+  if (const auto& executed = reactor.last_executed()) executed_.write(to_wire(*executed, executive_));
   for (const StepStatus& step : reactor.steps())
     steps_.write(to_wire(step, executive_, reactor.plan_version()));
 }
@@ -76,6 +79,7 @@ void OutputPublisher::send(const ReactorOutputs& out, std::uint32_t version,
     sent(steps_.write(sample));
     if (temporal::is_over(step.state)) steps_.dispose(sample);
   }
+  if (out.executed) tell(*out.executed);
   for (const Event& event : out.events) report(event);
 }
 
@@ -101,6 +105,19 @@ void OutputPublisher::send_waiting() {
     commands_.write(std::move(waiting_.front()));
     waiting_.pop_front();
   }
+}
+
+// A late joiner gets the newest few.
+void OutputPublisher::tell(const reactor::ExecutedPlan& executed) {
+  v1::ExecutedPlan sample = to_wire(executed, executive_);
+  v1::ExecutedPlan name;
+  name.executive(executive_);
+  name.version(executed.version);
+  sent(executed_.write(std::move(sample)));
+  told_executed_.push_back(std::move(name));
+  if (told_executed_.size() <= kToldExecuted) return;
+  executed_.dispose(told_executed_.front());
+  told_executed_.pop_front();
 }
 
 void OutputPublisher::lose_owner(const std::string& owner) {

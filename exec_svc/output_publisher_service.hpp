@@ -51,6 +51,7 @@ class OutputPublisher {
   /// An owner that was started anew may know no epoch: it is to be told again.
   void forget_told(const std::string& owner) { told_epoch_.erase(owner); }
   /// The executive has closed what it commanded there.
+  void tell(const reactor::ExecutedPlan& executed);
   void lose_owner(const std::string& owner);
   /// Leads the owner, which holds `held`, in later and later epochs up to this one: it takes no wider step
   /// (services/owner/command.hpp). False: the way is too long.
@@ -81,6 +82,8 @@ class OutputPublisher {
   services::Publisher<v1::Command> commands_;
   services::Publisher<v1::GoalStatus> goal_statuses_;
   services::Publisher<v1::Plan> plans_;
+  services::Publisher<v1::ExecutedPlan> executed_;
+  std::deque<v1::ExecutedPlan> told_executed_;  // keys of those that a late joiner gets
   services::Publisher<v1::StepStatus> steps_;
   services::Publisher<v1::MissionStatus> missions_;
   services::Publisher<v1::Event> events_;

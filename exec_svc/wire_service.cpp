@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "services/owner/command.hpp"
+#include "services/owner/command_wire.hpp"
 #include "services/wire/plan_wire.hpp"
 
 namespace roci::exec {
@@ -86,7 +87,11 @@ Observation from_wire(const v1::Observation& in) {
 
 CommandAck from_wire(const v1::CommandAck& in) {
   const auto stage = static_cast<CommandStage>(std::min<std::uint32_t>(in.stage(), v1::STAGE_UNKNOWN));
-  return {in.activity(), in.attempt(), stage, in.code(), in.reason(), in.epoch(), in.refused_epoch()};
+  CommandAck out{in.activity(), in.attempt(),       stage, in.code(), in.reason(),
+                 in.epoch(),    in.refused_epoch(), {}};
+  services::owner::Results results = services::owner::word_from_wire(in).results;
+  out.results = {results.duration, results.energy_j, std::move(results.values)};
+  return out;
 }
 
 PlanReply from_wire(std::uint64_t call, const v1::PlanReply& in) {
@@ -173,6 +178,33 @@ v1::StepStatus to_wire(const StepStatus& in, const std::string& executive, std::
   out.started_us(in.started ? in.started->count() : -1);
   out.ended_us(in.ended ? in.ended->count() : -1);
   out.cause(in.reason);
+  return out;
+}
+
+v1::ExecutedPlan to_wire(const reactor::ExecutedPlan& in, const std::string& executive) {
+  v1::ExecutedPlan out;
+  out.executive(executive);
+  out.version(in.version);
+  out.id(in.id);
+  out.origin_us(in.origin.count());
+  out.outcome(static_cast<v1::ExecutedOutcome>(in.outcome));
+  out.reason(in.reason);
+  for (const reactor::ExecutedActivity& activity : in.activities) {
+    v1::ExecutedActivity one;
+    one.id(activity.id);
+    one.name(activity.name);
+    one.level(activity.level);
+    one.parent(activity.parent);
+    one.robot(activity.robot);
+    one.state(static_cast<v1::ActivityState>(activity.state));
+    one.started_us(activity.started ? activity.started->count() : -1);
+    one.ended_us(activity.ended ? activity.ended->count() : -1);
+    one.attempts(activity.attempts);
+    one.cause(activity.cause);
+    one.results(services::owner::to_wire(
+        {activity.results.duration, activity.results.energy_j, activity.results.values}));
+    out.activities().push_back(std::move(one));
+  }
   return out;
 }
 

@@ -3,6 +3,7 @@
 
 #include "exec_svc/reactor/reactor.hpp"
 #include "roci_idl/command.h"
+#include "roci_idl/executed.h"
 #include "roci_idl/goal.h"
 #include "roci_idl/health.h"
 #include "roci_idl/plan.h"
@@ -22,6 +23,7 @@ v1::Command to_wire(const executive::Command&, const std::string& commander, std
                     std::uint64_t epoch);
 v1::StepStatus to_wire(const executive::StepStatus&, const std::string& executive,
                        std::uint32_t plan_version);
+v1::ExecutedPlan to_wire(const reactor::ExecutedPlan&, const std::string& executive);
 v1::PlanRequest to_wire(const reactor::PlanRequest&, const mission::MissionModel&);
 v1::PlanReceipt to_wire(const reactor::PlanReceipt&, const std::string& executive);
 v1::Event to_wire(const reactor::Event&);

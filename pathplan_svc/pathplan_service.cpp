@@ -11,8 +11,11 @@
 #include <vector>
 
 #include "core/mission/mission_file.hpp"
+#include "core/mission/service_list.hpp"
 #include "core/terrain/site_file.hpp"
 #include "pathplan_svc/limits.hpp"
+#include "pathplan_svc/map_exchange_service.hpp"
+#include "pathplan_svc/map_file.hpp"
 #include "pathplan_svc/rover_file.hpp"
 #include "pathplan_svc/wire_service.hpp"
 #include "services/bounds/tally.hpp"
@@ -30,14 +33,15 @@ namespace topics = services::topics;
 // so each answer stands on the map as it was when the question came.
 class PathplanService : public services::Service {
  public:
-  PathplanService(services::Node& node, const terrain::Site& site, const Rover& rover,
-                  const std::filesystem::path& run_folder)
+  PathplanService(services::Node& node, const terrain::Site& site, const Rover& rover, const MapSettings& map,
+                  const std::map<std::string, std::string>& team, const std::filesystem::path& run_folder)
       : node_(node),
         hazard_file_(run_folder.empty() ? run_folder : run_folder / (node.options().name + ".hazards")),
         keep_out_(rover.keep_out),
         planner_(site, rover.limits, rover.drive, {}, rover.keep_out_polygons),
         offers_(services::advertise(node, topics::function_offer)),
         events_(services::advertise(node, topics::event)),
+        exchange_(node, map, planner_.map().grid(), team, host()),
         worker_(node) {
     planner_.set_discs(keep_out_);
     report_holes();
@@ -53,6 +57,14 @@ class PathplanService : public services::Service {
   }
 
  private:
+  MapExchange::Host host() {
+    return {[this] { return map_changes_ >= kMapChanges; }, [this] { update_map(); },
+            [this](std::function<void(std::uint64_t)> then) {
+              worker_.compute([this](const std::stop_token&) { return planner_.map().version(); },
+                              std::move(then));
+            }};
+  }
+
   void on_function_call(const v1::FunctionRequest& request,
                         services::Responder<v1::FunctionReply> responder) {
     worker_.compute(
@@ -121,7 +133,8 @@ class PathplanService : public services::Service {
   void update_map() {
     std::vector<Disc> discs = keep_out_;
     for (const auto& [key, disc] : hazards_) discs.push_back(disc);
-    const std::size_t count = hazards_.size();
+    for (const Disc& disc : exchange_.discs()) discs.push_back(disc);
+    const std::size_t count = discs.size() - keep_out_.size();
     ++map_changes_;
     worker_.compute(
         [this, discs = std::move(discs)](const std::stop_token&) {
@@ -150,6 +163,14 @@ class PathplanService : public services::Service {
                          {"x_m", disc.centre.x},
                          {"y_m", disc.centre.y},
                          {"radius_m", disc.radius}});
+    for (const FoundObstacle& one : exchange_.obstacles()) {
+      if (one.cleared) continue;
+      hazards.push_back({{"found_by", one.finder},
+                         {"id", one.id},
+                         {"x_m", one.disc.centre.x},
+                         {"y_m", one.disc.centre.y},
+                         {"radius_m", one.disc.radius}});
+    }
     const std::filesystem::path next = std::filesystem::path(hazard_file_) += ".next";
     std::ofstream(next) << hazards.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) << "\n";
     std::error_code error;
@@ -171,6 +192,7 @@ class PathplanService : public services::Service {
   PathPlanner planner_;          // from the constructor's end on: the worker's alone
   services::Publisher<v1::FunctionOffer> offers_;
   services::Publisher<v1::Event> events_;
+  MapExchange exchange_;
   services::Worker worker_;
 };
 
@@ -180,8 +202,17 @@ std::unique_ptr<services::Service> make_service(services::Node& node, const serv
   const mission::Entry mission = mission::load_mission_file(settings.mission_file());
   const mission::Entry site = mission.at("site");
   const auto rover = mission.find("rover");
+  const auto map = mission.find("map");
+  const MapSettings map_settings = map ? read_map_settings(*map) : MapSettings{};
+  if (map && node.options().robot.empty())
+    map->fail(
+        "only the path planner of a robot tells of its map; name its robot in services, or drop the key");
+  std::map<std::string, std::string> team;
+  for (const mission::ServiceEntry& one : mission::load_service_list_if_any(settings.mission).services)
+    team.emplace(one.name, one.robot);
   return std::make_unique<PathplanService>(node, terrain::load_site(site.resolve(site.text())),
-                                           rover ? read_rover(*rover) : Rover{}, settings.run_folder);
+                                           rover ? read_rover(*rover) : Rover{}, map_settings, team,
+                                           settings.run_folder);
 }
 
 }  // namespace roci::pathplan

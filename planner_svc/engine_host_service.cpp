@@ -4,6 +4,7 @@
 
 #include "core/mission/service_list.hpp"
 #include "planner_svc/answering_host_service.hpp"
+#include "planner_svc/decision_host_service.hpp"
 #include "planner_svc/settings.hpp"
 #include "planner_svc/stepped_host_service.hpp"
 
@@ -24,12 +25,17 @@ class EngineHost final : public services::Service {
       : settings_(read_settings(run.mission_file())), answering_(node, run, settings_, table) {
     if (engine::stepped_named(table, settings_.engine) != nullptr)
       stepped_.emplace(node, settings_, table.at(settings_.engine), networks_folder(node, run));
+    if (const auto entry = table.find(settings_.engine); entry != table.end() && entry->second.make_resolver)
+      decisions_.emplace(node, settings_,
+                         entry->second.make_resolver({settings_.engine, node.options().robot, settings_.model,
+                                                      settings_.model_file}));
   }
 
  private:
   Settings settings_;
   AnsweringHost answering_;
   std::optional<SteppedHost> stepped_;
+  std::optional<DecisionHost> decisions_;
 };
 
 }  // namespace

@@ -16,11 +16,10 @@ const engine::Table& engines() {
        {engine::MakeAnswering([] { return std::make_unique<temporal_pddl::adapter::PddlEngine>(); }),
         [] { return std::make_unique<temporal_pddl::checker::PddlChecker>(); }}},
       {"utility_htn",
-       {engine::MakeStepped(
-            [](const engine::Setup& setup) {
-              return std::make_unique<utility_htn::adapter::UtilityEngine>(
-                  setup, utility_htn::reading::load_network(setup.model_file));
-            }),
+       {engine::MakeStepped([](const engine::Setup& setup) {
+          return std::make_unique<utility_htn::adapter::UtilityEngine>(
+              setup, utility_htn::reading::load_network(setup.model_file));
+        }),
         [] { return std::make_unique<utility_htn::checking::UtilityChecker>(); }}},
   };
   return table;

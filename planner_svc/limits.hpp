@@ -28,6 +28,8 @@ inline constexpr std::size_t kReasons = 50;
 inline constexpr std::size_t kReasonBytes = 2'000;
 /// Bytes of a downlink schedule or a mission outlook, well below what their topics carry: what has no room is counted in them.
 inline constexpr std::size_t kOutlookBytes = 8U << 20U;
+/// Decisions of running plans that are open at one time.
+inline constexpr std::size_t kDecisions = 1'000;
 /// Bytes of a name that is kept.
 inline constexpr std::size_t kNameBytes = 1'024;
 

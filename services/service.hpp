@@ -26,8 +26,11 @@ struct RunSettings {
   /// "first" or "second" of two processes that stand in for each other; empty when the process is alone.
   std::string pair{};
   std::filesystem::path settings{};  ///< The mission file that this service reads; empty: mission.yaml.
+  bool secure = false;               ///< Each service may do only what its certificate permits.
 
-  std::filesystem::path mission_file() const { return settings.empty() ? mission / "mission.yaml" : settings; }
+  std::filesystem::path mission_file() const {
+    return settings.empty() ? mission / "mission.yaml" : settings;
+  }
 };
 
 using MakeService = std::unique_ptr<Service>(Node&, const RunSettings&);

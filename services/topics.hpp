@@ -5,9 +5,11 @@
 
 #include "roci_idl/clock.h"
 #include "roci_idl/command.h"
+#include "roci_idl/executed.h"
 #include "roci_idl/function.h"
 #include "roci_idl/goal.h"
 #include "roci_idl/health.h"
+#include "roci_idl/map.h"
 #include "roci_idl/motion.h"
 #include "roci_idl/network.h"
 #include "roci_idl/order.h"
@@ -62,6 +64,7 @@ inline constexpr Topic<v1::Observation>   observation   {"roci/observation",    
 inline constexpr Topic<v1::DataProduct>   data_product  {"roci/product",          "roci::v1::DataProduct",   Qos::state, clocked, team, PayloadLimit::batch};
 inline constexpr Topic<v1::Hazard>        hazard        {"roci/hazard",           "roci::v1::Hazard",        Qos::state, clocked, team, PayloadLimit::word};
 inline constexpr Topic<v1::Plan>          plan          {"roci/plan",             "roci::v1::Plan",          Qos::state, clocked, robot, PayloadLimit::plan};
+inline constexpr Topic<v1::ExecutedPlan>  executed_plan {"roci/plan/executed",    "roci::v1::ExecutedPlan",  Qos::state, clocked, robot, PayloadLimit::plan};
 inline constexpr Topic<v1::StepStatus>    step_status   {"roci/plan/step",        "roci::v1::StepStatus",    Qos::state, clocked, robot, PayloadLimit::page};
 inline constexpr Topic<v1::MissionStatus> mission_status{"roci/mission",          "roci::v1::MissionStatus", Qos::state, clocked, team, PayloadLimit::page};
 inline constexpr Topic<v1::FunctionOffer> function_offer{"roci/function/offer",   "roci::v1::FunctionOffer", Qos::state, clocked, robot, PayloadLimit::page};
@@ -80,6 +83,10 @@ inline constexpr Topic<v1::NetworkStatus> network_status{"roci/network/status", 
 // What such an engine expects of its plan: data and their downlinks, utility, energy, the subway map.
 inline constexpr Topic<v1::DownlinkSchedule> downlink_schedule{"roci/downlink/schedule", "roci::v1::DownlinkSchedule", Qos::state, clocked, robot, PayloadLimit::batch};
 inline constexpr Topic<v1::MissionOutlook> mission_outlook{"roci/mission/outlook", "roci::v1::MissionOutlook",  Qos::state, clocked, robot, PayloadLimit::batch};
+
+// What a robot finds out about the terrain, and what robots tell each other of it.
+inline constexpr Topic<v1::TerrainFinding> terrain_finding{"roci/terrain/finding",  "roci::v1::TerrainFinding", Qos::state, clocked, robot, PayloadLimit::word};
+inline constexpr Topic<v1::MapPatch>      map_patch     {"roci/map/patch",        "roci::v1::MapPatch",      Qos::state, clocked, team, PayloadLimit::page};
 
 // An engine that plans all the time uses these.
 inline constexpr Topic<v1::PlanDelta>     plan_delta    {"roci/planner/delta",    "roci::v1::PlanDelta",     Qos::request, clocked, robot, PayloadLimit::plan};

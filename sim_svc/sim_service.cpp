@@ -1,11 +1,13 @@
 #include "sim_svc/sim_service.hpp"
 
+#include <algorithm>
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <utility>
 
+#include "core/mission/service_list.hpp"
 #include "services/owner/command_server.hpp"
 #include "services/publisher.hpp"
 #include "services/rpc.hpp"
@@ -51,6 +53,28 @@ constexpr char kGround[] = "ground";  // who tells of hazards that the scenario 
 constexpr Duration kCallDeadline = std::chrono::seconds(30);
 constexpr Duration kFarewell = std::chrono::seconds(1);  // from the mission's outcome to the end of the run
 
+// Returns the scenario's first stimulus that sets a value; null: there is none.
+const Stimulus* first_value(const Scenario& scenario) {
+  const auto sets = [](const Stimulus& stimulus) {
+    return std::holds_alternative<ValueStimulus>(stimulus.what);
+  };
+  const auto found = std::ranges::find_if(scenario.stimuli, sets);
+  return found == scenario.stimuli.end() ? nullptr : &*found;
+}
+
+// In a secure run nobody would hear an order of a service that has no right to give any.
+void check_rights(const Scenario& scenario, const std::string& service,
+                  const services::RunSettings& settings) {
+  const Stimulus* const value = first_value(scenario);
+  if (!settings.secure || value == nullptr) return;
+  const mission::ServiceList services = mission::load_service_list_if_any(settings.mission);
+  const mission::ServiceEntry* const own = services.find(service);
+  if (own != nullptr && std::ranges::find(own->rights, "console") != own->rights.end()) return;
+  value->entry->fail(
+      "in a secure run the console alone gives orders; give this one there (roci order set), or let " +
+      service + " have 'rights: [world, console]' in services: and its certificate made anew");
+}
+
 class SimService final : public services::Service, private owner::Driver {
  public:
   SimService(services::Node& node, RunSetup run, const services::RunSettings& settings)
@@ -65,6 +89,7 @@ class SimService final : public services::Service, private owner::Driver {
         observations_(services::advertise(node, topics::observation)),
         products_(services::advertise(node, topics::data_product)),
         hazards_(services::advertise(node, topics::hazard)),
+        findings_(services::advertise(node, topics::terrain_finding)),
         goals_(services::advertise(node, topics::goal)),
         network_orders_(services::advertise(node, topics::network_order)),
         events_(services::advertise(node, topics::event)) {
@@ -89,10 +114,8 @@ class SimService final : public services::Service, private owner::Driver {
       tell(world_.heed(node_.now(), wire::schedule_of(schedule)));
     });
     node.at(Time{}, [this] { tell(world_.advance(node_.now())); });
-    // In a secure run orders are the console's alone, so only who needs this asks for it.
-    for (const Stimulus& stimulus : scenario_.stimuli)
-      if (!orders_ && std::holds_alternative<ValueStimulus>(stimulus.what))
-        orders_.emplace(services::advertise(node, topics::order));
+    // In a secure run orders are the console's, so only who needs this asks for it.
+    if (first_value(scenario_) != nullptr) orders_.emplace(services::advertise(node, topics::order));
     for (const Stimulus& stimulus : scenario_.stimuli) {
       node.at(stimulus.at, [this, &stimulus] { stimulate(stimulus); });
     }
@@ -179,13 +202,19 @@ class SimService final : public services::Service, private owner::Driver {
   }
 
   void warn_of(const RockSeen& rock) {
-    hazards_.write(wire::to_wire(rock, node_.options().name));
+    if (rock.own_map)
+      findings_.write(wire::finding_of(rock));
+    else
+      hazards_.write(wire::to_wire(rock, node_.options().name));
     announce(v1::SEVERITY_WARNING, "hazard.seen",
              "a rock that the map does not show lies on the way (" + rock.id + ")");
   }
 
   void warn_of(const SoilMarked& soil) {
-    hazards_.write(wire::to_wire(soil, node_.options().name));
+    if (soil.own_map)
+      findings_.write(wire::finding_of(soil));
+    else
+      hazards_.write(wire::to_wire(soil, node_.options().name));
     announce(
         v1::SEVERITY_WARNING, "soil.no_go",
         soil.robot + " says No-Go for " + soil.judged_for + " (" + soil.id + ", " + soil.instrument + ")");
@@ -350,6 +379,7 @@ class SimService final : public services::Service, private owner::Driver {
   services::Publisher<v1::Observation> observations_;
   services::Publisher<v1::DataProduct> products_;
   services::Publisher<v1::Hazard> hazards_;
+  services::Publisher<v1::TerrainFinding> findings_;  ///< for a robot's own map
   services::Publisher<v1::Goal> goals_;
   services::Publisher<v1::NetworkOrder> network_orders_;
   std::optional<services::Publisher<v1::Order>> orders_;  ///< of scenarios that set values
@@ -364,8 +394,9 @@ class SimService final : public services::Service, private owner::Driver {
 }  // namespace
 
 std::unique_ptr<services::Service> make_service(services::Node& node, const services::RunSettings& settings) {
-  return std::make_unique<SimService>(node, scenario::load_run(settings.mission_file(), settings.scenario),
-                                      settings);
+  scenario::RunSetup run = scenario::load_run(settings.mission_file(), settings.scenario);
+  check_rights(run.scenario, node.options().name, settings);
+  return std::make_unique<SimService>(node, std::move(run), settings);
 }
 
 }  // namespace roci::sim

@@ -147,6 +147,30 @@ v1::Hazard to_wire(const world::SoilMarked& soil, const std::string& finder) {
   return out;
 }
 
+v1::TerrainFinding finding_of(const world::RockSeen& rock) {
+  v1::TerrainFinding out;
+  out.robot(rock.robot);
+  out.id(rock.id);
+  out.obstacle_kind(v1::OBSTACLE_ROCK);
+  out.x_m(rock.x);
+  out.y_m(rock.y);
+  out.radius_m(rock.radius);
+  out.found_us(rock.at.count());
+  return out;
+}
+
+v1::TerrainFinding finding_of(const world::SoilMarked& soil) {
+  v1::TerrainFinding out;
+  out.robot(soil.robot);
+  out.id(soil.id);
+  out.obstacle_kind(v1::OBSTACLE_SOIL);
+  out.x_m(soil.x);
+  out.y_m(soil.y);
+  out.radius_m(soil.radius);
+  out.found_us(soil.at.count());
+  return out;
+}
+
 v1::PathRequest to_wire(const world::PathWanted& path) {
   v1::PathRequest out;
   out.origin().x_m(path.from.x);

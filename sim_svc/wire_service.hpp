@@ -7,6 +7,7 @@
 #include "roci_idl/command.h"
 #include "roci_idl/goal.h"
 #include "roci_idl/health.h"
+#include "roci_idl/map.h"
 #include "roci_idl/motion.h"
 #include "roci_idl/network.h"
 #include "roci_idl/outlook.h"
@@ -32,6 +33,9 @@ v1::DataProduct to_wire(const world::Image&);
 v1::DataProduct to_wire(const world::Product&);
 v1::Hazard to_wire(const world::RockSeen&, const std::string& finder);
 v1::Hazard to_wire(const world::SoilMarked&, const std::string& finder);
+/// For the map of the robot that has found it.
+v1::TerrainFinding finding_of(const world::RockSeen&);
+v1::TerrainFinding finding_of(const world::SoilMarked&);
 v1::PathRequest to_wire(const world::PathWanted&);
 v1::ArmMotionRequest to_wire(const world::MotionWanted&);
 v1::Goal to_wire(const scenario::GoalStimulus&, bool recalled);

@@ -53,7 +53,7 @@ def fly_killing(bin_folder: Path, mission: Path, scenario: Scenario, folder: Pat
     flight = Flight(scenario.seed, folder, told["result"] or "crashed", told["sim_s"])
     out = KilledFlight(flight, kills.text(), dds, told["killed"])
     try:
-        read(flight)
+        read(flight, scenario)
         flight.losses = losses_of(flight)
     except (OSError, ValueError, sqlite3.Error) as error:
         out.faults.append(f"no record: {error}; {told['error']}")

@@ -56,6 +56,9 @@ def flights_section(records: list[Record]) -> str:
     out += (f"**Rules** (a defined end; every zone in its range; the subway map; no session above `downlink_limit_j`; nothing done or sent twice): "
             f"{'all hold' if not faults else str(len(faults)) + ' broken'}.\n")
     out += "".join(f"- seed {seed}: {fault}\n" for seed, fault in faults)
+    slow = [one for one in flights if one.long_sessions]
+    if slow:
+        out += f"\nIn {len(slow)} flights a link slower than foreseen made a session longer than its limit permits a plan ({examples([one.seed for one in slow])}).\n"
     total = sum(len(one.refused) for one in flights)
     out += f"\n**Plan versions refused** by the independent checker or the executive, and so never flown: {total}"
     out += f" in {len(refused)} flights ({examples([one.seed for one in refused])}).\n" if refused else ".\n"

@@ -11,7 +11,7 @@ from pathlib import Path
 import europa_flights as flights
 from europa_kills import draw_kills, products_lost
 from europa_knowing import DURATIONS, POWERS_W, knowing, too_hard
-from europa_scenarios import RATE_BYTE_S, SHOCKS_J, UNCERTAINTIES, draw
+from europa_scenarios import RATE_BYTE_S, SHOCKS_J, UNCERTAINTIES, Scenario, draw
 
 MISSION = Path(__file__).resolve().parents[2] / "missions/europa"
 S = 1_000_000
@@ -38,7 +38,7 @@ class Folder:
     def fail(self, at, activity, code):
         self.trace.append((at, f"{at * S} ack {activity} 1 stage=3 sim_svc {code} words"))
 
-    def flight(self, result="achieved"):
+    def flight(self, result="achieved", scenario=None):
         for name, some in (("effects", self.effects), ("products", self.products), ("events", self.events)):
             (self.path / f"{name}.jsonl").write_text("".join(json.dumps(one) + "\n" for one in some))
         with sqlite3.connect(self.path / "journal.sqlite") as database:
@@ -47,7 +47,7 @@ class Folder:
             database.executemany("INSERT INTO record(time_us, kind, text) VALUES (?, 'trace', ?)", [(at * S, text) for at, text in self.trace])
             database.execute("INSERT INTO goal VALUES (?, ?, ?)", self.goal)
         out = flights.Flight(1, self.path, result)
-        flights.read(out)
+        flights.read(out, scenario or Scenario(1))
         out.losses = flights.losses_of(out)
         return out
 
@@ -115,6 +115,9 @@ class Rules(unittest.TestCase):
         folder.observe(10, "lander.radio", "sending")
         folder.observe(10 + 10000, "lander.radio", "idle")
         self.assert_broken(folder, "a session of 1.20 MJ")
+        (folder.path / "journal.sqlite").unlink()
+        slower = folder.flight(scenario=Scenario(1, rates=[(0, 3000)]))
+        self.assertEqual((slower.faults, len(slower.long_sessions)), ([], 1), "no plan knew that")
 
     def test_nothing_is_done_or_sent_twice(self):
         folder = Folder()

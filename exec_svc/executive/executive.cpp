@@ -59,6 +59,7 @@ Outputs Executive::step(temporal::Time now, const Inputs& inputs) {
   impl_->move_to(now);
   for (const Observation& observation : inputs.observations)
     impl_->store.observe(observation.timeline, observation.value);
+  for (const Observation& set : inputs.settings) impl_->store.set(set.timeline, set.value);
   PlanRun* run = impl_->run.get();
   if (inputs.epoch != 0) impl_->epoch = inputs.epoch;
   if (inputs.epoch != 0 && run) run->begin_epoch(inputs.epoch);

@@ -12,8 +12,12 @@ void fields(A& a, archive::Of<Observation, A>& v) {
   a(v.timeline, v.value);
 }
 template <class A>
+void fields(A& a, archive::Of<CommandResults, A>& v) {
+  a(v.duration, v.energy_j, v.values);
+}
+template <class A>
 void fields(A& a, archive::Of<CommandAck, A>& v) {
-  a(v.activity, v.attempt, v.stage, v.code, v.reason, v.epoch, v.refused_epoch);
+  a(v.activity, v.attempt, v.stage, v.code, v.reason, v.epoch, v.refused_epoch, v.results);
 }
 
 template <class A>

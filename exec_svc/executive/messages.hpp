@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -26,6 +27,14 @@ struct Observation {
   temporal::Value value;
 };
 
+/// Is what a command took and brought, as its owner said with its end.
+struct CommandResults {
+  std::optional<temporal::Duration> duration{};
+  std::optional<double> energy_j{};
+  std::map<std::string, temporal::Value> values{};
+  friend bool operator==(const CommandResults&, const CommandResults&) = default;
+};
+
 /// Is an owner's answer to the command (activity, attempt).
 struct CommandAck {
   std::string activity;
@@ -36,6 +45,7 @@ struct CommandAck {
   std::uint64_t epoch = 0;  ///< is the one in which the command was issued; 0: not told, any fits
   /// Says that nothing was taken, as the owner knows a later epoch; the executive's is later still by now.
   bool refused_epoch = false;
+  CommandResults results{};
 };
 
 /// An answer to an open decision of the plan.
@@ -64,6 +74,8 @@ struct AnswerResult {
 /// Holds what happened since the last step. Each list is in the order of events.
 struct Inputs {
   std::vector<Observation> observations{};
+  std::vector<Observation>
+      settings{};  ///< values that the ground has set: what activities make of them later counts
   std::vector<CommandAck> acks{};
   std::vector<std::string> lost_owners{};  ///< services found dead, hung or cut off
   std::vector<DecisionAnswer> answers{};

@@ -28,6 +28,11 @@ void StartWaits::begin(Index activity, Time now, Duration bound) {
                             "waits until " + temporal::to_text(*run.wait_until) + " for " + unmet);
 }
 
+void StartWaits::inherit(Index activity, Time until) {
+  state_->runs[activity].wait_until = until;
+  ends_.emplace(until, activity);
+}
+
 std::optional<Index> StartWaits::take_expired(Time now) {
   forget_started();
   if (ends_.empty() || ends_.begin()->first > now) return std::nullopt;

@@ -22,6 +22,8 @@ class StartWaits {
   void consider(Index activity, temporal::Time now);
   /// Begins a wait for at most `bound`; one that has begun goes on as it is.
   void begin(Index activity, temporal::Time now, temporal::Duration bound);
+  /// Goes on with a wait that has begun under the plan before.
+  void inherit(Index activity, temporal::Time until);
   /// Returns an activity whose wait is over by now; it is not named again.
   std::optional<Index> take_expired(temporal::Time now);
   /// Returns the end of the wait that ends first.

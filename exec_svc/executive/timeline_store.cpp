@@ -9,6 +9,11 @@ using temporal::Value;
 
 void TimelineStore::observe(const std::string& timeline, const Value& value) { observed_[timeline] = value; }
 
+void TimelineStore::set(const std::string& timeline, const Value& value) {
+  const auto observed = observed_.find(timeline);
+  (observed != observed_.end() ? observed->second : internal_[timeline]) = value;
+}
+
 std::optional<Value> TimelineStore::value_of(const std::string& timeline) const {
   if (const auto found = observed_.find(timeline); found != observed_.end()) return found->second;
   if (const auto found = internal_.find(timeline); found != internal_.end()) return found->second;

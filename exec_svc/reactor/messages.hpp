@@ -13,6 +13,7 @@
 #include "exec_svc/goals/goal_set.hpp"
 #include "exec_svc/orders/order.hpp"
 #include "exec_svc/problem/problem.hpp"
+#include "exec_svc/reactor/executed_plan.hpp"
 #include "exec_svc/reactor/remaining_plan.hpp"
 
 namespace roci::exec::reactor {
@@ -98,9 +99,9 @@ struct ReactorInputs {
   std::vector<std::string> arrivals;  ///< services that came (back)
   std::vector<ModelVersion> models;
   std::optional<PlanReply> reply;
-  std::vector<temporal::PlanDelta> deltas;   ///< of an engine that plans all the time
-  std::vector<GivenAnswer> answers;          ///< to decisions of the running plan
-  std::vector<orders::Order> ground_orders;  ///< of the ground
+  std::vector<temporal::PlanDelta> deltas;     ///< of an engine that plans all the time
+  std::vector<GivenAnswer> answers;            ///< to decisions of the running plan
+  std::vector<orders::Order> ground_orders;    ///< of the ground
   std::vector<goals::GoalRecord> handed_over;  ///< as another executive has them, which led apart
 };
 
@@ -134,6 +135,7 @@ struct ReactorOutputs {
   std::optional<std::uint64_t> cancelled_call;  ///< its reply is wanted no more; it is still awaited
   std::optional<PlanRequest> call;
   std::optional<temporal::FlexiblePlan> adopted;  ///< a plan that now runs
+  std::optional<ExecutedPlan> executed;           ///< one that has ended
   std::optional<PlanReceipt> receipt;
   std::vector<DecisionRecord> decisions;            ///< those of which the state has changed
   std::vector<AnswerReceipt> answer_receipts;       ///< one for each answer that was not known

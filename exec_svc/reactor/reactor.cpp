@@ -178,6 +178,8 @@ const temporal::FlexiblePlan& Reactor::plan() const { return parts_->plan.execut
 
 const std::vector<PlannedAction>& Reactor::planned_actions() const { return parts_->plan.planned(); }
 
+const std::optional<ExecutedPlan>& Reactor::last_executed() const { return parts_->plan.last_executed(); }
+
 std::vector<StepStatus> Reactor::steps() const { return parts_->plan.executive().steps(); }
 
 MissionPhase Reactor::phase() const { return parts_->state.phase; }
@@ -202,8 +204,10 @@ std::vector<AnswerReceipt> Reactor::answer_receipts() const { return parts_->dec
 
 std::vector<orders::OrderStatus> Reactor::order_statuses() const { return parts_->ground.book().all(); }
 
-const std::map<std::string, temporal::Value>& Reactor::ground_values() const {
-  return parts_->ground.values();
+std::map<std::string, temporal::Value> Reactor::ground_values() const {
+  auto out = parts_->ground.values();
+  for (auto& [timeline, value] : out) value = parts_->plan.executive().value_of(timeline).value_or(value);
+  return out;
 }
 
 const std::map<std::string, temporal::Value>& Reactor::observed() const {

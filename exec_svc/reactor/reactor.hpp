@@ -42,6 +42,8 @@ class Reactor {
   /// What the planner wrote for it; after a restart what nobody had begun.
   const std::vector<PlannedAction>& planned_actions() const;
   std::vector<executive::StepStatus> steps() const;
+  /// RunningPlan::last_executed().
+  const std::optional<ExecutedPlan>& last_executed() const;
 
   MissionPhase phase() const;
   std::uint32_t plan_version() const;
@@ -53,9 +55,9 @@ class Reactor {
   /// The decisions that plans have asked for, and the newest receipt of each answer.
   const std::map<std::string, DecisionRecord>& decisions() const;
   std::vector<AnswerReceipt> answer_receipts() const;
-  /// Where every order of the ground stands, and the values that it has set.
+  /// Where every order of the ground stands, and the timelines that it has set, as they are now: tasks may have changed them since.
   std::vector<orders::OrderStatus> order_statuses() const;
-  const std::map<std::string, temporal::Value>& ground_values() const;
+  std::map<std::string, temporal::Value> ground_values() const;
   /// The newest value of every timeline that was observed.
   const std::map<std::string, temporal::Value>& observed() const;
   orders::AutonomyLevel autonomy() const;

@@ -14,6 +14,7 @@ namespace roci::exec::reactor {
 
 using executive::Inputs;
 using executive::Observation;
+using executive::OutcomeKind;
 using executive::Outputs;
 using executive::RecoveryAction;
 using executive::RecoveryStep;
@@ -52,7 +53,7 @@ RunningPlan::RunningPlan(MissionState& state)
 
 void RunningPlan::step(Time now, const ReactorInputs& inputs) {
   Inputs told;
-  told.observations = inputs.observations;
+  tell_observed(inputs.observations, told);
   for (Observation& change : changed_conditions()) {
     conflict_monitor_.observe(change.timeline, change.value);
     told.observations.push_back(std::move(change));
@@ -76,7 +77,9 @@ void RunningPlan::step(Time now, const ReactorInputs& inputs) {
     state_->report(Severity::info, std::string("recovery.") + to_string(recovery.action),
                    recovery.activity + ": " + recovery.reason);
   }
+  for (const executive::CommandAck& ack : inputs.acks) record_.note(ack);
   forward(std::move(done));
+  close_record();
   if (!state_->out.steps.empty() && state_->phase == MissionPhase::executing) report_windows();
 }
 
@@ -90,7 +93,32 @@ std::string RunningPlan::load(temporal::FlexiblePlan plan, Time now) {
   version_ = plan.version;
   invalid_ = false;
   watch(plan);
+  if (record_.open() && state_->mission->executive.replanning != mission::Replanning::continuous)
+    close(ExecutedOutcome::replaced, "");
+  record_.begin(plan);
   return "";
+}
+
+void RunningPlan::close(ExecutedOutcome outcome, std::string reason) {
+  last_executed_ = record_.close(outcome, std::move(reason));
+  state_->out.executed = last_executed_;
+}
+
+// What is broken is over when nothing of it runs any more.
+void RunningPlan::close_record() {
+  if (!record_.open()) return;
+  const executive::Outcome outcome = executive_.outcome();
+  const auto active = [](const StepStatus& step) {
+    return step.state == temporal::ActivityState::dispatched ||
+           step.state == temporal::ActivityState::running;
+  };
+  if (outcome.kind == OutcomeKind::finished) {
+    close(ExecutedOutcome::finished, "");
+  } else if (outcome.kind == OutcomeKind::cancelled) {
+    close(ExecutedOutcome::cancelled, outcome.reason);
+  } else if (outcome.kind == OutcomeKind::broken && std::ranges::none_of(executive_.steps(), active)) {
+    close(ExecutedOutcome::broken, outcome.reason);
+  }
 }
 
 /// An engine that plans all the time sends activities in any order and changes a plan of which a part has
@@ -127,6 +155,8 @@ std::string RunningPlan::relaunch(Time now, const std::set<std::string>& dropped
   invalid_ = false;
   for (const std::string& activity : without) executive_.drop(activity, "left out by the relaunch");
   watch(plan, true);
+  record_.begin(plan);
+  for (const StepStatus& step : executive_.steps()) record_.note(step);
   begin(now);
   return "";
 }
@@ -209,8 +239,19 @@ std::vector<PlannedAction> RunningPlan::remaining() const {
 
 void RunningPlan::restore_observations(const std::vector<Observation>& observations) {
   Inputs observed;
-  observed.observations = observations;
+  tell_observed(observations, observed);
   executive_.step(Time{0}, observed);
+}
+
+/// What the ground sets, nobody observes: it is so from then on, until an activity makes something else of it.
+void RunningPlan::tell_observed(const std::vector<Observation>& observations, Inputs& told) const {
+  for (const Observation& one : observations)
+    (is_set_by_ground(one.timeline) ? told.settings : told.observations).push_back(one);
+}
+
+bool RunningPlan::is_set_by_ground(const std::string& timeline) const {
+  const auto& values = state_->mission->ground.values;
+  return std::ranges::find(values, timeline) != values.end();
 }
 
 /// Facts are derived from observations here, where the metadata is; the executive sees each as one more
@@ -218,6 +259,7 @@ void RunningPlan::restore_observations(const std::vector<Observation>& observati
 std::vector<Observation> RunningPlan::changed_conditions() {
   std::vector<Observation> out;
   for (auto& [name, last] : condition_values_) {
+    if (is_set_by_ground(name)) continue;  // it is told when it is set
     auto value = state_->beliefs.lookup(name);
     if (!value || *value == last) continue;
     last = *value;
@@ -229,6 +271,7 @@ std::vector<Observation> RunningPlan::changed_conditions() {
 void RunningPlan::forward(Outputs done) {
   ReactorOutputs& out = state_->out;
   std::move(done.commands.begin(), done.commands.end(), std::back_inserter(out.commands));
+  for (const StepStatus& step : done.changes) record_.note(step);
   std::move(done.changes.begin(), done.changes.end(), std::back_inserter(out.steps));
   for (executive::DecisionStatus& decision : done.decisions)
     out.decisions.push_back({std::move(decision), version_});

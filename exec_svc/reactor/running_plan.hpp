@@ -11,6 +11,7 @@
 
 #include "exec_svc/executive/executive.hpp"
 #include "exec_svc/reactor/conflict_monitor.hpp"
+#include "exec_svc/reactor/executed_plan.hpp"
 #include "exec_svc/reactor/mission_state.hpp"
 #include "exec_svc/reactor/resource_monitor.hpp"
 
@@ -77,6 +78,8 @@ class RunningPlan {
   void restore_validity() { invalid_ = false; }
   bool invalid() const { return invalid_; }
 
+  /// The plan that has ended last since the executive was started, or since its last anchor; nothing: none has.
+  const std::optional<ExecutedPlan>& last_executed() const { return last_executed_; }
   const executive::Executive& executive() const { return executive_; }
   executive::Outcome outcome() const { return executive_.outcome(); }
   /// Of the plan that was loaded last, also in an earlier start of the executive; 0: none was.
@@ -98,8 +101,12 @@ class RunningPlan {
   }
 
  private:
+  void close(ExecutedOutcome outcome, std::string reason);
+  void close_record();
   void watch(const temporal::FlexiblePlan& plan, bool launched_again = false);
   std::vector<executive::Observation> changed_conditions();
+  void tell_observed(const std::vector<executive::Observation>& observations, executive::Inputs& told) const;
+  bool is_set_by_ground(const std::string& timeline) const;
   void forward(executive::Outputs done);
   void report_windows();
 
@@ -108,6 +115,8 @@ class RunningPlan {
   std::uint32_t version_ = 0;
   std::uint64_t epoch_ = 0;  // of the executive, as the inputs told last
   bool invalid_ = false;
+  ExecutionRecord record_;
+  std::optional<ExecutedPlan> last_executed_;
   std::vector<PlannedAction> planned_;              ///< of the last plan; after a restart what remained of it
   std::vector<executive::DecisionAnswer> answers_;  ///< of the step to come
   std::vector<executive::AnswerResult> answer_results_;  ///< of the last step

@@ -41,6 +41,7 @@ struct Line {
   cli::ReachArguments reach;
   cli::map::MapArguments map;
   cli::outlook::OutlookArguments outlook;
+  std::uint32_t version = 0;
   std::vector<double> from;
   bool prunes = false;
   std::size_t kept = 20;
@@ -275,6 +276,9 @@ int main(int argc, char** argv) {
       ->add_option("--why", line.activity,
                    "Instead: the function values that this activity stands on (its id, or its name for all "
                    "of that name)");
+  add_verb(app, line, "executed", "A plan that has ended, with real times and what its commands brought",
+           [](lib::Client& client, const Line& l) { return cli::show_executed(client, l.version, l.json); })
+      ->add_option("version", line.version, "Of the plan (default: the one that ended last)");
   CLI::App* timelines =
       add_verb(app, line, "timelines", "Planned, executed and projected values of every timeline",
                [](lib::Client& client, const Line& l) {

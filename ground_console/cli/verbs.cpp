@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "ground_console/cli/executed_table.hpp"
 #include "ground_console/cli/plan_table.hpp"
 #include "ground_console/cli/plan_values.hpp"
 #include "ground_console/cli/report.hpp"
@@ -188,6 +189,25 @@ int show_values(const lib::MissionView& view, const std::string& name, bool as_j
 }
 
 }  // namespace
+
+int show_executed(lib::Client& client, std::uint32_t version, bool as_json) {
+  if (!client.wait_for_mission(kAnswerLimit)) return no_mission(client.view());
+  client.wait([&] { return !client.view().executed().empty(); }, std::chrono::milliseconds(1000));
+  client.wait([] { return false; }, std::chrono::milliseconds(300));
+  tell_whose(client.view());
+  const auto& plans = client.view().executed();
+  const auto found = version == 0 && !plans.empty() ? std::prev(plans.end()) : plans.find(version);
+  if (found == plans.end()) {
+    std::cerr << "roci: "
+              << (version == 0
+                      ? "no plan"
+                      : "plan " + std::to_string(version) + " has not ended, or is forgotten; no plan")
+              << (plans.empty() ? " has ended yet\n" : " but the last ones is kept; see roci executed\n");
+    return kRefused;
+  }
+  std::cout << (as_json ? json_text(executed_json(found->second)) + "\n" : executed_table(found->second));
+  return kDone;
+}
 
 int show_plan(lib::Client& client, const std::string& why, bool as_json) {
   if (!client.wait_for_mission(kAnswerLimit)) return no_mission(client.view());

@@ -46,6 +46,8 @@ int cancel_goal(lib::Client& client, const std::string& issuer, const std::strin
 int list_goals(lib::Client& client, bool why, bool json);
 int show_status(lib::Client& client, bool json);
 /// The running plan; with `why`, the id or the name of an activity, the values that it stands on.
+/// A plan that has ended, as it was executed: the one of this version, or for 0 the one that ended last.
+int show_executed(lib::Client& client, std::uint32_t version, bool as_json);
 int show_plan(lib::Client& client, const std::string& why, bool json);
 /// Planned, executed and projected values; a row for each timeline, or, with `names`, every change of these alone.
 int show_timelines(lib::Client& client, const std::vector<std::string>& names, const MissionWords& words,

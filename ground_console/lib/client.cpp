@@ -129,6 +129,7 @@ Client::Client(const services::process::Connection& connection)
   follow(topics::goal);
   follow(topics::goal_status);
   follow(topics::plan);
+  follow(topics::executed_plan);
   follow(topics::step_status);
   follow(topics::observation);
   follow(topics::data_product);

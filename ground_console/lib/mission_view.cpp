@@ -65,6 +65,20 @@ void MissionView::take(const v1::GoalStatus& status) {
   count(keep_newest(goal_statuses_, GoalKey{status.issuer(), status.id()}, status));
 }
 
+void MissionView::take(const v1::ExecutedPlan& executed) {
+  note_time(executed.header());
+  if (executed_.size() >= kExecutives && !executed_.contains(executed.executive())) return count(false);
+  auto& versions = executed_[executed.executive()];
+  versions.insert_or_assign(executed.version(), executed);
+  if (versions.size() > kExecuted) versions.erase(versions.begin());
+}
+
+const std::map<std::uint32_t, v1::ExecutedPlan>& MissionView::executed() const {
+  static const std::map<std::uint32_t, v1::ExecutedPlan> none;
+  const auto found = executed_.find(executive());
+  return found == executed_.end() ? none : found->second;
+}
+
 void MissionView::take(const v1::Plan& plan) {
   note_time(plan.header());
   if (plans_.size() >= kExecutives && !plans_.contains(plan.executive())) return count(false);

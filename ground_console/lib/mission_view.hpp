@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "roci_idl/command.h"
+#include "roci_idl/executed.h"
 #include "roci_idl/function.h"
 #include "roci_idl/goal.h"
 #include "roci_idl/health.h"
@@ -33,6 +34,7 @@ class MissionView {
   void take(const v1::Goal& goal);
   void take(const v1::GoalStatus& status);
   void take(const v1::Plan& plan);
+  void take(const v1::ExecutedPlan& executed);
   void take(const v1::StepStatus& step);
   void take(const v1::Observation& observation);
   void take(const v1::DataProduct& product);
@@ -67,6 +69,8 @@ class MissionView {
   const std::map<GoalKey, v1::GoalStatus>& goals() const { return goal_statuses_; }
   const v1::Goal* goal(const GoalKey& key) const;  ///< as it was asked for; null if not seen
   const v1::Plan* plan() const;                    ///< of the highest version; null before the first
+  /// Of the plans of the chosen executive that have ended, by version; the newest kExecuted are kept.
+  const std::map<std::uint32_t, v1::ExecutedPlan>& executed() const;
   const v1::StepStatus* step(const std::string& activity) const;
   const v1::TimelineValue* timeline(const std::string& name) const;
   const std::map<std::string, v1::Observation>& timelines() const { return observations_; }
@@ -95,6 +99,7 @@ class MissionView {
 
   static constexpr std::size_t kEvents = 1000;
   static constexpr std::size_t kWay = 2000;
+  static constexpr std::size_t kExecuted = 20;
 
  private:
   void note_time(const v1::SampleHeader& header);
@@ -105,8 +110,9 @@ class MissionView {
   std::map<std::string, v1::MissionStatus> missions_;  ///< by executive
   std::map<GoalKey, v1::Goal> goals_;
   std::map<GoalKey, v1::GoalStatus> goal_statuses_;
-  std::map<std::string, v1::Plan> plans_;                                ///< by executive
-  std::map<std::pair<std::string, std::string>, v1::StepStatus> steps_;  ///< by executive and activity
+  std::map<std::string, v1::Plan> plans_;                                      ///< by executive
+  std::map<std::string, std::map<std::uint32_t, v1::ExecutedPlan>> executed_;  ///< by executive and version
+  std::map<std::pair<std::string, std::string>, v1::StepStatus> steps_;        ///< by executive and activity
   std::map<std::string, v1::Observation> observations_;
   std::map<std::string, v1::DataProduct> products_;
   std::map<std::string, v1::Heartbeat> heartbeats_;

@@ -9,6 +9,7 @@
 
 #include "planner_svc/engine/answering_engine.hpp"
 #include "planner_svc/engine/checker.hpp"
+#include "planner_svc/engine/decision_resolver.hpp"
 #include "planner_svc/engine/stepped_engine.hpp"
 
 namespace roci::planner::engine {
@@ -20,6 +21,8 @@ using MakeStepped = std::function<std::unique_ptr<SteppedEngine>(const Setup&)>;
 struct TableEntry {
   std::variant<MakeAnswering, MakeStepped> make;
   std::function<std::unique_ptr<Checker>()> make_checker;
+  /// Of an engine whose plans leave decisions to itself; empty: they leave none. It may throw as MakeStepped does.
+  std::function<std::unique_ptr<DecisionResolver>(const Setup&)> make_resolver{};
 };
 
 /// By name, as mission.yaml and PlanRequest give it.

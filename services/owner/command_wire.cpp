@@ -10,6 +10,10 @@
 namespace roci::services::owner {
 namespace {
 
+// Of the results of one command so many are taken, with names of so many bytes; the rest counts as not measured.
+constexpr std::size_t kMostValues = 64;
+constexpr std::size_t kMostNameBytes = 1'024;
+
 Action action_of(v1::CommandAction action) {
   switch (action) {
     case v1::COMMAND_CANCEL:
@@ -62,6 +66,19 @@ Request from_wire(const v1::Command& command) {
   return request;
 }
 
+v1::CommandResult to_wire(const Results& results) {
+  v1::CommandResult out;
+  out.duration_us(results.duration ? results.duration->count() : -1);
+  out.energy_j(results.energy_j.value_or(std::numeric_limits<double>::quiet_NaN()));
+  for (const auto& [name, value] : results.values) {
+    v1::NamedValue measured;
+    measured.name(name);
+    measured.held(wire::to_wire(value));
+    out.measured().push_back(std::move(measured));
+  }
+  return out;
+}
+
 v1::CommandAck to_wire(const Ack& ack, const std::string& owner) {
   v1::CommandAck out;
   out.commander(ack.key.commander);
@@ -72,15 +89,7 @@ v1::CommandAck to_wire(const Ack& ack, const std::string& owner) {
   out.owner(owner);
   out.code(ack.word.code);
   out.reason(ack.word.reason);
-  const Results& results = ack.word.results;
-  out.outcome().duration_us(results.duration ? results.duration->count() : -1);
-  out.outcome().energy_j(results.energy_j.value_or(std::numeric_limits<double>::quiet_NaN()));
-  for (const auto& [name, value] : results.values) {
-    v1::NamedValue measured;
-    measured.name(name);
-    measured.held(wire::to_wire(value));
-    out.outcome().measured().push_back(std::move(measured));
-  }
+  out.outcome(to_wire(ack.word.results));
   out.newest_epoch(ack.newest_epoch);
   out.refused_epoch(ack.refused_epoch);
   return out;
@@ -94,10 +103,13 @@ Word word_from_wire(const v1::CommandAck& ack) {
   const v1::CommandResult& outcome = ack.outcome();
   if (outcome.duration_us() >= 0) word.results.duration = temporal::Duration(outcome.duration_us());
   if (std::isfinite(outcome.energy_j())) word.results.energy_j = outcome.energy_j();
-  for (const v1::NamedValue& measured : outcome.measured()) try {
+  for (const v1::NamedValue& measured : outcome.measured()) {
+    if (word.results.values.size() >= kMostValues || measured.name().size() > kMostNameBytes) continue;
+    try {
       word.results.values[measured.name()] = wire::from_wire(measured.held());
     } catch (const wire::WireError&) {  // counts as not measured
     }
+  }
   return word;
 }
 

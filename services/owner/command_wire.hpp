@@ -11,6 +11,7 @@ namespace roci::services::owner {
 /// These translate one way and the other; the ledger judges the values.
 Request from_wire(const v1::Command&);
 v1::CommandAck to_wire(const Ack&, const std::string& owner);
+v1::CommandResult to_wire(const Results&);
 /// What an acknowledgement says; a number that is not finite counts as not measured.
 Word word_from_wire(const v1::CommandAck&);
 

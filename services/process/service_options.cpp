@@ -107,6 +107,7 @@ ServiceOptions parse_service_options(int argc, const char* const* argv, const st
   options.node.master.roster = split_list(roster);
   options.node.epoch_unix_us = static_cast<std::int64_t>(epoch_s * 1e6);
   options.connection = resolve_connection(flags, environment, options.run.mission);
+  options.run.secure = !options.connection.keys.empty();
   options.connection.transport.participant = options.node.name;
   options.node.mission =
       std::filesystem::absolute(options.run.mission).lexically_normal().filename().string();

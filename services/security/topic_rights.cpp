@@ -67,6 +67,7 @@ std::vector<TopicRights> make_table() {
       row(topics::data_product,    {owner, analyst},                         {planner, analyst, listener, console}),
       row(topics::hazard,          {owner},                                  {path_planner, listener, console}),
       row(topics::plan,            {executive},                              {planner, listener, console}),
+      row(topics::executed_plan,   {executive},                              {listener, console}),
       row(topics::step_status,     {executive},                              {planner, listener, console}),
       row(topics::mission_status,  {executive},                              {listener, world, launcher, console}),
       row(topics::function_offer,  {path_planner, arm_planner, functions},   {executive, planner, listener, console}),
@@ -81,6 +82,9 @@ std::vector<TopicRights> make_table() {
       row(topics::network_status,  {planner},                                {console}),
       row(topics::downlink_schedule,{planner},                               {world, console}),
       row(topics::mission_outlook, {planner},                                {world, console}),
+
+      row(topics::terrain_finding, {owner},                                  {path_planner, listener, console}),
+      row(topics::map_patch,       {path_planner},                           {path_planner, listener, console}),
 
       row(topics::plan_delta,      {planner},                                {executive}),
       row(topics::plan_receipt,    {executive},                              {planner}),
@@ -124,7 +128,7 @@ std::span<const TopicRights> topic_rights() {
 
 std::set<Role> roles_of_program(std::string_view program) {
   if (program == "exec_svc") return {service, executive};
-  if (program == "planner_svc") return {service, planner};
+  if (program == "planner_svc") return {service, planner, resolver};
   if (program == "pathplan_svc") return {service, path_planner};
   if (program == "arm_svc") return {service, arm_planner};
   if (program == "science_svc") return {service, analyst};

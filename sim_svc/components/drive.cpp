@@ -16,6 +16,8 @@ using world::Surroundings;
 
 namespace {
 
+constexpr double kRim = 0.05;  // m, of a marked circle in which a No-Go is no news either
+
 std::optional<double> number(const std::string& text) {
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -37,7 +39,8 @@ Drive::Drive(DriveSettings settings, world::RandomStream noise)
       soil_noise_(noise_.branch("soil")) {}
 
 State Drive::state() const {
-  return target_ ? State{"going-to", {target_->place}} : State{"idle-at", {place_}};
+  if (!target_) return State{"idle-at", {place_}};
+  return State{"going-to", {target_->turns ? place_ : target_->place}};
 }
 
 std::optional<std::string> Drive::place() const {
@@ -46,7 +49,7 @@ std::optional<std::string> Drive::place() const {
 }
 
 world::Memory Drive::memory() const {
-  const bool moved = target_ && (trace_ || detours_ > 0);
+  const bool moved = target_ && !target_->turns && (trace_ || detours_ > 0);
   world::Memory out{{"place", State{"idle-at", {moved ? settings_.stop_place : place_}}}};
   if (bogged_) out.emplace("bogged", true);
   return out;
@@ -60,18 +63,24 @@ void Drive::restore(const world::Memory& memory) {
   bogged_ = bogged != memory.end() && bogged->second == temporal::Value{true};
 }
 
-Ending Drive::begin(const world::Task& task, Time, Surroundings& around) {
+Ending Drive::begin(const world::Task& task, Time now, Surroundings& around) {
   const auto x = number(task.arguments.at("x"));
   const auto y = number(task.arguments.at("y"));
-  if (!x || !y) return Failure{"bad-arguments", "drive: x and y must be numbers, in metres"};
+  if (!x || !y) return Failure{"bad-arguments", task.command + ": x and y must be numbers, in metres"};
   if (bogged_) return bogged_down();
   for (const auto* other : around.components.all<world::BodyInterlock>()) {
     if (Ending forbidden = other->forbids_driving()) return forbidden;
   }
-  target_ = Target{task.key, task.latest_end, task.arguments.at("to"), *x, *y};
   detours_ = last_detours_ = 0;
   sinkage_m_ = soil_slip_ = 0;
   soil_ = {};
+  if (task.command == "turn") {
+    target_ = Target{task.key, task.latest_end, place_, *x, *y, true};
+    trace_ = simulate_turn(settings_.motion, now, *around.body.pose, {*x, *y}, noise_);
+    around.deeds.push_back({"turn", place_});
+    return std::nullopt;
+  }
+  target_ = Target{task.key, task.latest_end, task.arguments.at("to"), *x, *y};
   ask(around);
   return std::nullopt;
 }
@@ -91,7 +100,7 @@ Ending Drive::answer(const world::Answer& answer, Time now, Surroundings& around
 }
 
 void Drive::ground_changed(Time now, Surroundings& around) {
-  if (!trace_) return;
+  if (!trace_ || target_->turns) return;
   const DriveSample sample = trace_->at(now);
   around.body.pose = sample.pose;
   simulate(now, sample.pose, sample.next_waypoint, around.environment.ground);
@@ -160,7 +169,8 @@ std::string Drive::see_rock(const DriveTrace& trace, Surroundings& around) {
   const std::string id = known.try_emplace(index, "rock-" + std::to_string(known.size() + 1)).first->second;
   if (seen_rocks_.insert(index).second) {
     const world::Rock& rock = around.environment.ground.hidden_rocks[index];
-    around.out.push_back(world::RockSeen{id, around.robot, rock.x, rock.y, rock.radius, trace.end});
+    around.out.push_back(
+        world::RockSeen{id, around.robot, rock.x, rock.y, rock.radius, trace.end, settings_.own_map});
   }
   return id;
 }
@@ -176,14 +186,17 @@ std::map<std::string, temporal::Value> Drive::results() const {
   return out;
 }
 
-// Marks a circle around the place that was measured, and returns what the drive ends with.
+// Marks a circle that begins at the place that was measured and lies ahead of the body, so that it stands outside; returns what the drive ends with.
 Failure Drive::mark_soil(const DriveTrace& trace, Surroundings& around) {
   const SoilSensorSettings& sensor = settings_.soil_sensor;
   const NoGo& no_go = *trace.no_go;
-  marked_.push_back({no_go.at, sensor.mark_radius_m});
+  const double heading = trace.samples.back().pose.heading;
+  const terrain::Point centre{no_go.at.x + sensor.mark_radius_m * std::cos(heading),
+                              no_go.at.y + sensor.mark_radius_m * std::sin(heading)};
+  marked_.push_back({centre, sensor.mark_radius_m + kRim});
   const std::string id = around.robot + "-soil-" + std::to_string(marked_.size());
-  around.out.push_back(world::SoilMarked{id, around.robot, no_go.instrument, sensor.judges_for, no_go.at.x,
-                                         no_go.at.y, sensor.mark_radius_m, trace.end});
+  around.out.push_back(world::SoilMarked{id, around.robot, no_go.instrument, sensor.judges_for, centre.x,
+                                         centre.y, sensor.mark_radius_m, trace.end, settings_.own_map});
   std::ostringstream why;
   why << std::fixed << std::setprecision(2) << "the " << no_go.instrument << " says No-Go for "
       << sensor.judges_for << ": it would sink " << no_go.expected.sinkage_m << " m and need "
@@ -192,7 +205,7 @@ Failure Drive::mark_soil(const DriveTrace& trace, Surroundings& around) {
 }
 
 void Drive::halt(Time now, Surroundings& around) {
-  const bool moved = trace_.has_value() || detours_ > 0;
+  const bool moved = target_ && !target_->turns && (trace_.has_value() || detours_ > 0);
   settle(now, around.body);
   stand(moved ? settings_.stop_place : place_);
 }

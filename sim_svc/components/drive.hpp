@@ -19,6 +19,7 @@ struct DriveSettings {
   SoilSensorSettings soil_sensor;        ///< has no instruments by default
   double detours = 0;                    ///< rocks that one drive looks at and asks a way around
   double look_s = 20;                    ///< a look at such a rock takes this long
+  bool own_map = false;                  ///< what it finds goes on its robot's own map alone
   std::string planner = "pathplan_svc";  ///< the service that is asked for paths
   /// It names where the body stands at the start and after a stop on the way.
   std::string stop_place = "here";
@@ -26,7 +27,7 @@ struct DriveSettings {
 
 /// Drives on wheels: drive (to, x, y) asks for a path and follows it; a stop on the way leaves the body at
 /// the stop place. Before a hidden rock it stands, looks, and asks for a path around (a repair of its own,
-/// R146), as long as there are detours and time left. In soil that does not bear it the body digs itself in
+/// R146), as long as there are detours and time left. turn (x, y) turns in place until it heads for that point. In soil that does not bear it the body digs itself in
 /// (`bogged-down`) and drives no more. With a soil sensor it ends `no-go` where another vehicle must not follow, and marks a
 /// circle there.
 class Drive final : public world::Component, public world::Mobility {
@@ -34,9 +35,13 @@ class Drive final : public world::Component, public world::Mobility {
   /// Starts with the body at the stop place; it must have a pose, and the world a site.
   Drive(DriveSettings, world::RandomStream noise);
 
-  std::vector<world::CommandForm> commands() const override { return {{"drive", {"to", "x", "y"}}}; }
-  std::vector<world::StateForm> state_forms() const override { return {{"idle-at", 1}, {"going-to", 1}}; }
-  /// Returns idle-at (place) or going-to (place).
+  std::vector<world::CommandForm> commands() const override {
+    return {{"drive", {"to", "x", "y"}}, {"turn", {"x", "y"}}};
+  }
+  std::vector<world::StateForm> state_forms() const override {
+    return {{"idle-at", 1}, {"going-to", 1}};
+  }
+  /// Returns idle-at (place) or going-to (place): while it turns, the place where it stands.
   temporal::State state() const override;
   bool busy() const override { return target_.has_value(); }
   std::optional<std::string> place() const override;
@@ -67,6 +72,7 @@ class Drive final : public world::Component, public world::Mobility {
     std::string place;
     double x = 0;
     double y = 0;
+    bool turns = false;  // in place, towards (x, y)
   };
 
   void stand(std::string place);

@@ -27,6 +27,8 @@ constexpr double kDigInSeconds = 20;  // of spinning wheels, after which the bod
 
 double wrapped(double angle) { return std::remainder(angle, 2 * std::numbers::pi); }
 
+bool here_is(const Pose& pose, terrain::Point p) { return pose.x == p.x && pose.y == p.y; }
+
 double distance_to_segment(terrain::Point p, terrain::Point a, terrain::Point b) {
   const double dx = b.x - a.x;
   const double dy = b.y - a.y;
@@ -235,6 +237,26 @@ DriveTrace simulate_drive(const Ground& ground, const DriveParameters& parameter
                           const Pose& from, const std::vector<terrain::Point>& way, std::size_t first,
                           RandomStream& noise, SoilSensor* sensor) {
   return DriveIntegration(ground, parameters, from, way, first, noise, sensor).run(start);
+}
+
+DriveTrace simulate_turn(const DriveParameters& p, Time start, const Pose& from, terrain::Point towards,
+                         RandomStream& noise) {
+  const double wanted = std::atan2(towards.y - from.y, towards.x - from.x);
+  const double rest = here_is(from, towards) ? 0 : wrapped(wanted - from.heading);
+  const double lasts = std::abs(rest) / p.turn_rate_rad_s;
+  const double drift = p.heading_noise * std::sqrt(lasts) * noise.normal();
+  DriveTrace trace;
+  trace.start = start;
+  trace.end = start + seconds(lasts);
+  trace.peak_power_w = p.turn_power_w;
+  const auto steps = static_cast<std::int64_t>(std::ceil(lasts / kStepSeconds));
+  for (std::int64_t i = 0; i <= steps; ++i) {
+    const double share = lasts > 0 ? std::min(1.0, static_cast<double>(i) * kStepSeconds / lasts) : 1.0;
+    DriveSample sample{from, p.turn_power_w * share * lasts};
+    sample.pose.heading = wrapped(from.heading + share * (rest + drift));
+    trace.samples.push_back(sample);
+  }
+  return trace;
 }
 
 }  // namespace roci::sim::components

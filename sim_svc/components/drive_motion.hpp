@@ -78,4 +78,9 @@ DriveTrace simulate_drive(const world::Ground&, const DriveParameters&, temporal
                           const world::Pose& from, const std::vector<terrain::Point>& way, std::size_t first,
                           world::RandomStream& noise, SoilSensor* sensor = nullptr);
 
+/// Integrates a turn in place until the body heads for the point: at its turn rate, with the drift of the heading over
+/// that time. It ends `arrived`.
+DriveTrace simulate_turn(const DriveParameters&, temporal::Time start, const world::Pose& from,
+                         terrain::Point towards, world::RandomStream& noise);
+
 }  // namespace roci::sim::components

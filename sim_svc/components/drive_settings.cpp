@@ -12,10 +12,11 @@ double above_zero(const Entry& section, std::string_view key, double fallback) {
 }
 
 SoilInstrument read_instrument(const Entry& entry) {
-  entry.allow_only({"name", "ahead_m", "every_m", "noise", "shears"});
+  entry.allow_only({"name", "ahead_m", "beside_m", "every_m", "noise", "shears"});
   SoilInstrument out;
   out.name = entry.at("name").text();
   out.ahead_m = entry.number_or("ahead_m", out.ahead_m);
+  out.beside_m = entry.number_or("beside_m", out.beside_m);
   out.every_m = above_zero(entry, "every_m", out.every_m);
   out.noise = setup::number(entry, "noise", out.noise);
   out.shears = entry.truth_or("shears", out.shears);
@@ -82,6 +83,7 @@ DriveSettings read_drive_settings(setup::Settings& in) {
   if (const auto sensor = in.find("soil_sensor")) out.soil_sensor = read_soil_sensor(*sensor);
   out.detours = in.number("detours", out.detours);
   out.look_s = in.number("look_s", out.look_s, kPositive);
+  if (const auto own = in.find("own_map")) out.own_map = own->truth();
   out.planner = in.text("planner", out.planner);
   out.stop_place = in.text("stop_place", out.stop_place);
   return out;

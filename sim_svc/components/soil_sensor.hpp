@@ -14,6 +14,7 @@ namespace roci::sim::components {
 struct SoilInstrument {
   std::string name;
   double ahead_m = 0;    ///< of the body's centre, in the direction of travel
+  double beside_m = 0;   ///< to the left of it; negative: to the right
   double every_m = 0.1;  ///< of way it measures once, above 0
   double noise = 0.1;    ///< standard deviation, as a share of what it measures
   bool shears = true;    ///< it measures strength, too, and not only how the soil gives way
@@ -27,7 +28,7 @@ struct SoilSensorSettings {
   world::Soil believed;                     ///< the strength that is taken for true where none was measured
   double most_sinkage_share = 0.25;         ///< of the wheel's diameter
   double most_traction_share = 0.75;  ///< of the thrust that the soil can bear (Footing::traction_share)
-  double mark_radius_m = 1.5;         ///< of the circle that is marked around a No-Go
+  double mark_radius_m = 1.5;         ///< of the circle that is marked, from the No-Go onwards
 };
 
 /// Is the verdict that the vehicle must not go there.

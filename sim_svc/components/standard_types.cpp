@@ -16,6 +16,7 @@
 #include "sim_svc/components/gripper.hpp"
 #include "sim_svc/components/laboratory.hpp"
 #include "sim_svc/components/laboratory_settings.hpp"
+#include "sim_svc/components/marker_camera.hpp"
 #include "sim_svc/components/radio.hpp"
 #include "sim_svc/components/sampling_arm.hpp"
 #include "sim_svc/components/sampling_arm_settings.hpp"
@@ -76,6 +77,21 @@ world::MakeComponent read_camera(Settings& in) {
   return making<Camera>(out);
 }
 
+world::MakeComponent read_marker_camera(Settings& in) {
+  MarkerCameraSettings out;
+  out.duration_s = in.number("duration_s", out.duration_s);
+  out.power_w = in.number("power_w", out.power_w);
+  out.mast_m = between(in, "mast_m", out.mast_m, 0.1, 20);
+  out.marker_m = between(in, "marker_m", out.marker_m, 0.01, 20);
+  out.least_range_m = between(in, "least_range_m", out.least_range_m, 0.01, 100);
+  out.most_range_m = between(in, "most_range_m", out.most_range_m, out.least_range_m, 100);
+  out.view_deg = between(in, "view_deg", out.view_deg, 5, 360);
+  out.miss_share = in.share("miss_share", out.miss_share);
+  out.range_noise = in.number("range_noise", out.range_noise);
+  out.heading_noise_rad = in.number("heading_noise_rad", out.heading_noise_rad);
+  return making<MarkerCamera>(out);
+}
+
 world::MakeComponent read_gripper(Settings& in) {
   GripperSettings out;
   out.pick_s = in.number("pick_s", out.pick_s);
@@ -105,6 +121,7 @@ setup::Registry standard_types() {
   out.add("dynamic_arm", {[](Settings& in) { return making<DynamicArm>(read_dynamic_arm_settings(in)); }});
   out.add("grapple", {[](Settings& in) { return making<Grapple>(read_grapple_settings(in)); }});
   out.add("camera", {read_camera, true});
+  out.add("marker_camera", {read_marker_camera, true});
   out.add("gripper", {read_gripper});
   out.add("radio", {read_radio});
   out.add("sampling_arm", {[](Settings& in) { return making<SamplingArm>(read_sampling_arm_settings(in)); },

@@ -72,7 +72,7 @@ struct Stimulus {
   std::variant<GoalStimulus, RecallStimulus, HazardStimulus, NetworkStimulus, ValueStimulus,
                world::Disturbance>
       what;
-  /// Is where a ComponentMishap, HollowSuccess, ViewBlock or SoilChange stands in the file.
+  /// Is where a ValueStimulus, ComponentMishap, HollowSuccess, ViewBlock or SoilChange stands in the file.
   std::optional<mission::Entry> entry{};
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <fstream>
 #include <set>
 #include <utility>
@@ -111,7 +112,7 @@ ValueStimulus read_set(const Entry& entry) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   if (text == "true" || text == "false") {
     out.value = text == "true";
-  } else if (error == std::errc{} && end == text.data() + text.size()) {
+  } else if (error == std::errc{} && end == text.data() + text.size() && std::isfinite(number)) {
     out.value = number;
   } else {
     out.value = temporal::state(text);
@@ -223,7 +224,10 @@ Stimulus read_stimulus(const Entry& entry, const Roster& roster) {
   if (const auto hazard = entry.find("hazard")) out.what = read_hazard(*hazard);
   if (const auto network = entry.find("network")) out.what = read_network(*network);
   if (const auto parameter = entry.find("parameter")) out.what = read_parameter(*parameter);
-  if (const auto value = entry.find("set")) out.what = read_set(*value);
+  if (const auto value = entry.find("set")) {
+    out.what = read_set(*value);
+    out.entry = *value;
+  }
   if (const auto fault = entry.find("fault")) {
     out.what = Disturbance{read_fault(*fault, robot_of(entry, roster), out.at)};
   }

@@ -34,6 +34,7 @@ struct Environment {
   std::map<std::size_t, std::string> known_rocks;  ///< index into Ground::hidden_rocks → id, once one was met
   std::map<std::string, std::string> samples;  ///< sample → place where it lies; empty: somebody holds it
   std::vector<Effect> effects{};               ///< since they were taken last
+  std::map<std::string, Pose> poses{};         ///< of the robots that stand on the map, as of the last event
 };
 
 }  // namespace roci::sim::world

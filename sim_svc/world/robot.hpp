@@ -80,6 +80,8 @@ class Robot {
   Robot(RobotSetup, bool first, std::uint64_t seed);
 
   const std::string& name() const { return name_; }
+  /// Returns where it stands on the map, if it does, at the time up to which it was settled.
+  const std::optional<Pose>& pose() const { return body_.pose; }
   std::string component_names() const;  ///< "nav, arm, …"
   bool runs(const TaskKey&) const;
   /// At the time up to which the robot was settled.

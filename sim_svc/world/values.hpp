@@ -126,6 +126,7 @@ struct RockSeen {
   double y = 0;       ///< m
   double radius = 0;  ///< m
   temporal::Time at{};
+  bool own_map = false;  ///< it goes on the robot's own map alone, and not on everybody's
   bool operator==(const RockSeen&) const = default;
 };
 
@@ -139,6 +140,7 @@ struct SoilMarked {
   double y = 0;            ///< m
   double radius = 0;       ///< m
   temporal::Time at{};
+  bool own_map = false;  ///< as of RockSeen
   bool operator==(const SoilMarked&) const = default;
 };
 

@@ -213,6 +213,8 @@ void World::advance_to(Time now) {
 
 void World::settle(Time t) {
   for (Robot& one : robots_) one.settle(now_, t, environment_, out_);
+  for (const Robot& one : robots_)
+    if (one.pose()) environment_.poses[one.name()] = *one.pose();
   now_ = t;
 }
 

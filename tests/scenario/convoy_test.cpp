@@ -56,6 +56,30 @@ TEST_P(Convoy, WhatCannotBeRepairedGoesUp) { expect_as_listed("escalated"); }
 INSTANTIATE_TEST_SUITE_P(Transports, Convoy, ::testing::Values("inproc", "fastdds", "cyclonedds", "mixed"),
                          [](const auto& dds) { return std::string(dds.param); });
 
+class ConvoyReport : public ::testing::Test {
+ protected:
+  ~ConvoyReport() override { fs::remove_all(folder_); }
+  const fs::path folder_ = fs::temp_directory_path() / ("roci_convoy_report_" + std::to_string(::getpid()));
+};
+
+// R129, R144: what became of the plan comes back with real times and results.
+TEST_F(ConvoyReport, ThePlanThatBrokeIsToldAsItWasExecuted) {
+  const Ended ended =
+      run(ROCI_SOURCE_DIR "/tests/scenario/executed_plan.sh \"$(dirname \"$(command -v roci-launch)\")\" " +
+          std::string(kMission) + " fastdds " + folder_.string() + " --scenario escalated --speed 30");
+  const json plan = json::parse(ended.output, nullptr, false);
+  ASSERT_TRUE(plan.is_object()) << ended.output;
+  EXPECT_EQ(plan["outcome"], "broken");
+  EXPECT_THAT(plan.value("reason", ""), HasSubstr("out of order"));
+  ASSERT_EQ(plan["activities"].size(), 4U);
+  const json& scouted = plan["activities"][0];
+  EXPECT_EQ(scouted["state"], "failed");
+  EXPECT_EQ(scouted["started_s"], 15);
+  EXPECT_THAT(scouted.value("cause", ""), HasSubstr("press: fault"));
+  EXPECT_TRUE(scouted["values"].contains("duration_s")) << scouted;
+  EXPECT_FALSE(plan["activities"][1].contains("started_s"));
+}
+
 class ConvoyKills : public ::testing::TestWithParam<const char*> {
  protected:
   ~ConvoyKills() override { fs::remove_all(folder_); }

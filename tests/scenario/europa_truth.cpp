@@ -33,7 +33,6 @@ class Mean {
 };
 
 double seconds(long long us) { return static_cast<double>(us) / 1e6; }
-std::string task_of(const std::string& activity) { return activity.substr(0, activity.rfind('#')); }
 
 // What each task took, by its id; energy of its commands alone.
 struct Taken {
@@ -210,11 +209,11 @@ void tell_of_signatures(Network& network, const std::map<std::string, bool>& sig
 }
 
 // The same data may be worth more of one task than of another; what a seismometer has recorded comes with the task that parks it.
-const Product* product_of(const Network& network, const v1::DataProduct& data) {
+const Product* product_of(const Network& network, const Course::Product& data) {
   const Product* out = nullptr;
   for (const Task& task : network.tasks)
     for (const Product& product : task.products)
-      if (product.name == data.product_kind() && (out == nullptr || task.id == task_of(data.source())))
+      if (product.name == data.kind && (out == nullptr || data.source.starts_with(task.id + "#")))
         out = &product;
   return out;
 }
@@ -234,10 +233,10 @@ Network truth_of(Network foreseen, const HeardFlight& flight, double since_s,
   return foreseen;
 }
 
-std::vector<double> received(const Network& network, const HeardFlight& flight) {
+std::vector<double> received(const Network& network, const Course& course) {
   std::vector<double> out(network.ranks.size(), 0.0);
-  for (const v1::DataProduct& one : flight.products) {
-    if (one.fate() != v1::PRODUCT_RECEIVED) continue;
+  for (const Course::Product& one : course.products()) {
+    if (one.received_s < 0) continue;
     const Product* const product = product_of(network, one);
     if (product == nullptr) continue;
     for (std::size_t rank = 0; rank < out.size(); ++rank) out[rank] += product->utility[rank];

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "planner_svc/utility_htn/model/network.hpp"
+#include "tests/scenario/europa_course.hpp"
 #include "tests/scenario/heard_flight.hpp"
 
 namespace roci::scenario {
@@ -19,6 +20,6 @@ planner::utility_htn::model::Network truth_of(planner::utility_htn::model::Netwo
                                               const std::map<std::string, bool>& signatures);
 
 /// Returns the utility of all data that were received on Earth, by rank, as the network values them.
-std::vector<double> received(const planner::utility_htn::model::Network& network, const HeardFlight& flight);
+std::vector<double> received(const planner::utility_htn::model::Network& network, const Course& course);
 
 }  // namespace roci::scenario

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -18,17 +19,20 @@ using ::testing::StartsWith, ::testing::UnorderedElementsAre;
 
 class LanderKills : public ::testing::TestWithParam<const char*> {
  protected:
-  ~LanderKills() override { fs::remove_all(folder_); }
+  ~LanderKills() override {
+    fs::remove_all(folder_);
+    fs::remove_all(mission_);
+  }
 
   // What the launcher printed, of a flight in which the service dies when the first thing has been done to the object.
-  Ended fly_killing(const std::string& service, const std::string& object) {
+  Ended fly_killing(const std::string& service, const std::string& object,
+                    const fs::path& mission = ROCI_SOURCE_DIR "/tests/missions/lander",
+                    const std::string& scenario = "nominal") {
     fs::remove_all(folder_);
-    return run(
-        ROCI_SOURCE_DIR
-        "/tests/scenario/kill_in_flight.sh \"$(dirname \"$(command -v roci-launch)\")\" " ROCI_SOURCE_DIR
-        "/tests/missions/lander " +
-        std::string(GetParam()) + " " + folder_.string() + " " + service + " " + object +
-        " --scenario nominal --speed 2000");
+    return run(ROCI_SOURCE_DIR
+               "/tests/scenario/kill_in_flight.sh \"$(dirname \"$(command -v roci-launch)\")\" " +
+               mission.string() + " " + std::string(GetParam()) + " " + folder_.string() + " " + service +
+               " " + object + " --scenario " + scenario + " --speed 2000");
   }
 
   std::vector<std::string> deeds() const { return deeds_of(folder_); }
@@ -42,6 +46,7 @@ class LanderKills : public ::testing::TestWithParam<const char*> {
   }
 
   const fs::path folder_ = fs::temp_directory_path() / ("roci_lander_kills_" + std::to_string(::getpid()));
+  const fs::path mission_ = folder_.string() + "_mission";
 };
 
 TEST_P(LanderKills, AnEngineThatDiesGoesOnWithThePlanThatRuns) {
@@ -58,6 +63,40 @@ TEST_P(LanderKills, AnExecutiveThatDiesGoesOnWithThePlanOfTheEngine) {
     SCOPED_TRACE(object);
     expect_all_done_once(fly_killing("exec_svc", object));
   }
+}
+
+// A lander whose digging holds the next one until the ground lets it go. The executive dies between the hold and the ground's second word:
+// what it tells of the first one, when it is there again, releases nothing.
+TEST_P(LanderKills, AnExecutiveThatDiesKeepsAHoldThatCameAfterTheGroundsWord) {
+  fs::remove_all(mission_);
+  fs::copy(ROCI_SOURCE_DIR "/tests/missions/lander", mission_, fs::copy_options::recursive);
+  edit(mission_ / "mission.yaml", "model: network.yaml\n", "model: network.yaml\nground: {values: [hold]}\n");
+  const fs::path network = mission_ / "network.yaml";
+  edit(network, "  hand: {kind: atomic}\n",
+       "  hand: {kind: atomic}\n  hold: {kind: state, states: [clear, held], initial: held, reported: "
+       "false}\n");
+  edit(network, "\"lander.lamp = lit\"]", "\"lander.lamp = lit\", \"hold = clear\"]");
+  edit(network, "      trench_{site}: {set: open, at: end}\n",
+       "      trench_{site}: {set: open, at: end}\n      hold: {set: held, at: end}\n");
+  edit(network, "of: \"{site}\"", "of: \"picture_{site}\"");
+  edit(network, "window_s: [7200, none]", "window_s: [11000, none]");
+  std::ofstream(mission_ / "scenarios/holds.yaml")
+      << "duration_s: 14400\nstart: {battery: 600000}\nstimuli:\n"
+         "  - {at_s: 10, goal: {id: network, kind: mission, importance: hard}}\n"
+         "  - {at_s: 300, set: {id: first, timeline: hold, value: clear}}\n"
+         "  - {at_s: 8000, set: {id: second, timeline: hold, value: clear}}\n";
+  const Ended ended = fly_killing("exec_svc", "picture_near", mission_, "holds");
+  EXPECT_THAT(ended.output, StartsWith("killed "));
+  EXPECT_EQ(last_line_as_json(ended.output).value("result", ""), "achieved") << ended.output;
+  std::vector<double> digs;
+  std::ifstream in(folder_ / "effects.jsonl");
+  for (std::string line; std::getline(in, line);)
+    if (const auto deed = json::parse(line); deed["kind"] == "dig")
+      digs.push_back(deed["time_us"].get<double>() / 1e6);
+  ASSERT_EQ(digs.size(), 2U);
+  EXPECT_GT(digs[0], 300);
+  EXPECT_LT(digs[0], 8000);
+  EXPECT_GT(digs[1], 8000) << "the ground had not let it go";
 }
 
 INSTANTIATE_TEST_SUITE_P(Transports, LanderKills, ::testing::Values("fastdds", "cyclonedds", "mixed"),

@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 """Flies the experiments of MEXEC, section V.A, and writes docs/europa-experiments.md and docs/pictures/europa-*.svg.
 
-Two processes of bench_europa fly at a time. With --results nothing is flown: the files are what bench_europa printed."""
+Two processes of bench_europa fly at a time, if nothing else is asked. With --results nothing is flown: the files are what bench_europa printed."""
 
 from __future__ import annotations
 
 import argparse
+import hashlib
 import json
 import re
 import shlex
@@ -38,14 +39,25 @@ FIGURES = {"mission": ["--strategy", "replan", "--look-days", "6", "--look-for",
                                      ("replan", "replanning"))}}
 
 
-def flown(bench: Path, options: list[str]) -> dict:
+def flown(bench: Path, options: list[str], parts: Path | None = None) -> dict:
+    """What the program tells of the flights; with a folder of parts from there if it flew them before."""
+    part = parts / (hashlib.sha256(shlex.join([bench.name, *options]).encode()).hexdigest()[:16] + ".json") if parts else None
+    if part and part.exists():
+        return json.loads(part.read_text())
+    document = told(bench, options)
+    if part:
+        part.write_text(json.dumps(document))
+    return document
+
+
+def told(bench: Path, options: list[str]) -> dict:
     done = subprocess.run([bench, *options], cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     if done.returncode != 0:
         raise SystemExit(f"bench_europa {' '.join(options)} failed: {done.stderr.splitlines()[-1] if done.stderr else done.returncode}")
     return json.loads(done.stdout)
 
 
-def fly(bench: Path, network: str, runs: int, few: int) -> dict:
+def fly(bench: Path, network: str, runs: int, few: int, jobs: int = 2, parts: Path | None = None) -> dict:
     """All that the page is made of, and the command that makes it again. What is swept, left out or judged otherwise is flown `few` times."""
     base = ["--network", network]
     points = [(name, option, value) for name, (option, values) in SWEPT.items() for value in values]
@@ -59,9 +71,9 @@ def fly(bench: Path, network: str, runs: int, few: int) -> dict:
     costs += [["--sites", str(sites), "--targets", str(targets), "--days", DAYS] for sites, targets in SIZES]
     figures = {name: [*base, "--runs", "1", "--bias=0", "--no-prescient", "--executions", *options] for name, options in FIGURES.items()}
     figures["mission"][1] = MISSION
-    with ThreadPoolExecutor(2) as two:
+    with ThreadPoolExecutor(jobs) as pool:
         def all_of(orders: list[list[str]], program: Path = bench) -> list[dict]:
-            return list(two.map(lambda options: flown(program, options), orders))
+            return list(pool.map(lambda options: flown(program, options, parts), orders))
 
         out = {"variants": all_of(variants)}
         out["swept"] = [[name, value, document] for (name, _, value), document in zip(points, all_of(swept))] if few else []
@@ -88,13 +100,18 @@ def main() -> int:
     parser.add_argument("--runs", type=int, default=50, help="flights of each strategy and variant")
     parser.add_argument("--few", type=int, default=8,
                         help="flights of each strategy for what is swept, left out or judged otherwise; 0: none of that")
+    parser.add_argument("--jobs", type=int, default=2, help="how many programs fly at a time")
+    parser.add_argument("--parts", type=Path, help="a folder that keeps what each program has told, so that a run that was broken off goes on; "
+                        "empty it for another engine")
     parser.add_argument("--results", type=Path, help="what --keep has written, instead of flying: for a cause that was added")
     parser.add_argument("--keep", type=Path, help="the file that keeps what was flown")
     parser.add_argument("--out", type=Path, default=ROOT / "docs", help="the folder of the page; pictures/ stands in it")
     args = parser.parse_args()
     if args.runs < 2 or args.few == 1:
         parser.error("an interval needs two runs at least")
-    flights = json.loads(args.results.read_text()) if args.results else fly(args.bench, args.network, args.runs, args.few)
+    if args.parts:
+        args.parts.mkdir(parents=True, exist_ok=True)
+    flights = json.loads(args.results.read_text()) if args.results else fly(args.bench, args.network, args.runs, args.few, args.jobs, args.parts)
     if args.keep:
         args.keep.write_text(json.dumps(flights))
     results = Results(*flights["variants"])

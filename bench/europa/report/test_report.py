@@ -5,8 +5,10 @@ from __future__ import annotations
 import math
 import subprocess
 import sys
+import tempfile
 import unittest
 import xml.etree.ElementTree as ElementTree
+from pathlib import Path
 
 from chart import Line, chart, ticks
 from estimate import difference, mean, ratio, student
@@ -14,6 +16,7 @@ from flights import Results, utility_at
 from gantt import Bar, Row, gantt, lanes
 from missions import left, missions
 from page import Told, costs, page, pictures, slopes
+from run import flown
 from trends import trends
 
 BENCH = sys.argv.pop(1) if len(sys.argv) > 1 and not sys.argv[1].startswith("-") else None
@@ -222,6 +225,18 @@ class Pages(unittest.TestCase):
     def test_results_of_other_seeds_do_not_belong_together(self):
         other = {**expected_world(), "first_seed": 2}
         self.assertRaisesRegex(ValueError, "first_seed", Results, expected_world(), other)
+
+
+class Parts(unittest.TestCase):
+    def test_what_was_told_once_is_not_flown_again(self):
+        with tempfile.TemporaryDirectory() as folder:
+            program = Path(folder) / "program"
+            program.write_text(f"#!/bin/sh\necho once >> {folder}/flights\necho '{{\"option\": \"'$1'\"}}'\n")
+            program.chmod(0o755)
+            parts = Path(folder)
+            for option in ("a", "b", "a"):
+                self.assertEqual(flown(program, [option], parts), {"option": option})
+            self.assertEqual((parts / "flights").read_text().count("once"), 2)
 
 
 @unittest.skipUnless(BENCH, "needs bench_europa as its argument")

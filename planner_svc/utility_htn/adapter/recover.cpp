@@ -93,6 +93,7 @@ class Recovery {
     out.planned = out.start = plan_.origin + starts_[activity.start_point];
     out.end = out.start + activity.duration_lower;
     out.stage = activity.commit == temporal::CommitState::committed ? Stage::committed : Stage::planned;
+    if (out.stage == Stage::committed) out.told = activity.duration_lower;
     out_.points.set(id, activity.start_point, activity.end_point);
     return out;
   }

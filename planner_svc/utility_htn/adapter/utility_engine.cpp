@@ -118,7 +118,7 @@ void UtilityEngine::hear(const StepInputs& inputs) {
   for (const engine::CommandResult& result : inputs.results)
     if (task_of(result.activity)) measurements_.hear(result);
   measure();
-  for (const engine::DataProduct& product : inputs.products) hear_product(product);
+  for (const engine::DataProduct& product : inputs.products) hear_product(product, inputs.now);
   if (inputs.receipt) hear_receipt(*inputs.receipt, inputs.now);
 }
 
@@ -179,8 +179,8 @@ bool UtilityEngine::tasks_move(const std::string& timeline) const {
   });
 }
 
-void UtilityEngine::hear_product(const engine::DataProduct& product) {
-  if (!delivery_.hear(existing(network_, chains_, *cycle_, product))) return;
+void UtilityEngine::hear_product(const engine::DataProduct& product, Time now) {
+  if (!delivery_.hear(existing(network_, chains_, *cycle_, product), now)) return;
   cycle_->doubt();
   to_look_ = true;
 }

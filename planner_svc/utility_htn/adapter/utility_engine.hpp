@@ -45,7 +45,7 @@ class UtilityEngine final : public engine::SteppedEngine {
   void hear_end(const engine::EndedGoal& ended);
   void hear_observation(const engine::Observation& observation);
   bool tasks_move(const std::string& timeline) const;
-  void hear_product(const engine::DataProduct& product);
+  void hear_product(const engine::DataProduct& product, temporal::Time now);
   void hear_step(const engine::StepStatus& step, temporal::Time now);
   void hear_receipt(const engine::Receipt& receipt, temporal::Time now);
   void begin_fixed(temporal::Time origin);

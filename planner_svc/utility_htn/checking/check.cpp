@@ -106,6 +106,7 @@ std::vector<std::string> faults(const Question& question) {
   check_conditions(question, out);
   check_ranges(question, out);
   check_budget(question, out);
+  check_sessions(question, out);
   if (question.downlinks_told) check_downlinks(question, out);
   check_subway_map(question, out);
   return out;

@@ -32,7 +32,7 @@ std::optional<std::pair<Time, double>> broken(const Question& question, const St
     return std::pair(at, value);
   };
   if (constraint.phase == Phase::pre) return look(step.start, Moment::between);
-  if (constraint.phase == Phase::post) return look(end, Moment::between);
+  if (constraint.phase == Phase::post) return look(end, end > step.start ? Moment::between : Moment::after);
   if (end == step.start) return std::nullopt;
   if (const auto found = look(step.start, Moment::after)) return found;
   for (const Time at : course.changes()) {

@@ -48,9 +48,12 @@ void Course::add(const Question& question, temporal::timelines::Index timeline, 
     if (impact.timeline != timeline) continue;
     const double amount = model::evaluate(impact.amount, question.values);
     const bool at_end = impact.moment == ImpactWhen::at_end;
+    const bool during = impact.moment == ImpactWhen::during;
     const Time end = end_of(question, step);
-    all_.push_back({at_end ? end : step.start, !at_end, impact.kind, step.id, amount, late});
-    if (impact.moment == ImpactWhen::during && impact.kind != ImpactKind::assign)
+    const bool point = end == step.start;  // all that it does it does when it starts
+    if (point && during) continue;
+    all_.push_back({at_end ? end : step.start, !at_end || point, impact.kind, step.id, amount, late});
+    if (during && impact.kind != ImpactKind::assign)
       all_.push_back({end, false, impact.kind, step.id, -amount, late});
   }
 }

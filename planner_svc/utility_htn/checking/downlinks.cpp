@@ -1,6 +1,8 @@
 // Downlinks by the formulas of appendix A.
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <map>
 #include <set>
 
 #include "planner_svc/utility_htn/checking/course.hpp"
@@ -106,6 +108,13 @@ void check_tiers(const Downlinks& downlinks, Faults& out) {
   }
 }
 
+// Returns the value of the parameter of that name, as missions call it.
+double parameter(const Question& question, const std::string& name, double otherwise) {
+  const auto& all = question.network.parameters;
+  const auto found = std::ranges::find(all, name, &model::Parameter::name);
+  return found == all.end() ? otherwise : question.values[static_cast<std::size_t>(found - all.begin())];
+}
+
 // What planned steps will generate stands in the list as the network says, and has its downlink.
 void check_sources(const Question& question, Faults& out) {
   const auto& products = question.downlinks.products;
@@ -146,6 +155,42 @@ void check_sources(const Question& question, Faults& out) {
 }
 
 }  // namespace
+
+// What has begun goes on with downlinks as long as the network says, whatever limits say by then. What was made longer than that, and what
+// is new, keeps them.
+void check_sessions(const Question& question, Faults& out) {
+  constexpr double kNone = std::numeric_limits<double>::infinity();
+  const double of_one = parameter(question, "downlink_limit_j", kNone);
+  const double of_sol = parameter(question, "sol_limit_j", kNone);
+  const double sol_s = std::max(1.0, parameter(question, "sol_s", 86'400));
+  if (parameter(question, "rate_bytes_per_s", 0) <= 0) return;
+  std::map<std::int64_t, double> taken;
+  std::map<std::int64_t, const Step*> judged;  // one of each sol
+  const auto take = [&](const Step& step, bool is_new) {
+    const model::Task& task = question.network.tasks[step.task];
+    if (!task.downlinks) return;
+    const double seconds = temporal::to_seconds(end_of(question, step) - step.start);
+    const double joules = seconds * std::max(0.0, model::draw(question.network, task, question.values));
+    const auto sol = static_cast<std::int64_t>(temporal::to_seconds(step.start) / sol_s);
+    taken[sol] += joules;
+    const bool longer = seconds > model::duration_s(task, question.values) + 1e-3;
+    if (step.committed || (!is_new && !longer)) return;
+    judged[sol] = &step;
+    if (more(joules, of_one))
+      out.push_back("downlink " + name(question, step) + " takes " + number(joules) + " J of the " +
+                    number(of_one) + " J that one may");
+  };
+  for (const Block& block : question.plan) {
+    const bool is_new = std::ranges::none_of(block.steps, [](const Step& step) { return step.committed; });
+    for (const Step& step : block.steps) take(step, is_new);
+  }
+  for (const Step& step : question.rests) take(step, false);
+  for (const auto& [sol, step] : judged)
+    if (more(taken[sol], of_sol))
+      out.push_back("downlinks of sol " + std::to_string(sol) + ", " + name(question, *step) +
+                    " among them, take " + number(taken[sol]) + " J of the " + number(of_sol) +
+                    " J that they may");
+}
 
 void check_downlinks(const Question& question, Faults& out) {
   check_sources(question, out);

@@ -17,6 +17,7 @@ void check_commitments(const Question& question, Faults& out);
 void check_conditions(const Question& question, Faults& out);
 void check_ranges(const Question& question, Faults& out);
 void check_budget(const Question& question, Faults& out);
+void check_sessions(const Question& question, Faults& out);
 void check_downlinks(const Question& question, Faults& out);
 void check_subway_map(const Question& question, Faults& out);
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "planner_svc/utility_htn/cycle/early_end.hpp"
 #include "planner_svc/utility_htn/flattening/reach.hpp"
 #include "planner_svc/utility_htn/search/robust.hpp"
 
@@ -23,6 +24,9 @@ bool is_placed(const Link& link) { return !is_over(link.stage) && link.stage != 
 // Nothing is expected to be later than it is by more than this.
 constexpr Duration kFarthestExpectation = std::chrono::hours(1);
 
+// A search places and takes back all the time, and few tasks stand on one timeline: so changes shall be cheap.
+temporal::timelines::Extent lines_from(Time origin) { return {.origin = origin, .block = 24}; }
+
 bool is_request(const model::Task& task) { return !task.is_template; }
 
 }  // namespace
@@ -40,8 +44,9 @@ Cycle::Cycle(const model::Network& network, const flattening::Chains& chains,
       assessor_(assessor),
       scheduler_(scheduler),
       settings_(settings),
-      timelines_(network.timelines, origin),
+      timelines_(network.timelines, lines_from(origin)),
       past_{.values = model::priors(network)},
+      sessions_(network, chains),
       plan_end_(network.cycle.plan_end),
       deviation_(network.timelines.size(), 0.0) {
   for (const auto& definition : network.timelines) past_.internal.push_back(definition.initial);
@@ -91,7 +96,8 @@ void Cycle::tried_again(TaskId task, Time at) {
 void Cycle::ended(TaskId task, Time at, bool succeeded, const std::string& cause) {
   Link* const one = link(task);
   if (one == nullptr || is_over(one->stage)) return;
-  const bool placed = is_placed(*one);
+  const bool placed =
+      is_placed(*one) && timelines_.placed(task);  // consolidation has forgotten what should be over
   to_optimize_ |= one->end != at || !succeeded;
   one->start = std::min(one->start, at);
   one->end = at;
@@ -170,6 +176,7 @@ void Cycle::nothing_runs(Time now) {
     for (std::size_t i = 0; i < one.links.size(); ++i) {
       Link& each = one.links[i];
       if (each.stage == Stage::committed) each.stage = Stage::planned;
+      if (each.stage == Stage::planned) each.told = Duration{0};
       if (each.stage == Stage::running) ended(task_id(one.number, i), now, false, "the plan has ended");
     }
   to_optimize_ = true;
@@ -179,7 +186,7 @@ void Cycle::resume(const Past& past, std::vector<Block> blocks, std::uint32_t la
   past_ = past;
   for (const TaskIndex task : past.withdrawn) requested_.erase(task);
   last_block_ = last_block;
-  timelines_ = temporal::timelines::Timelines(network_.timelines, now);
+  timelines_ = temporal::timelines::Timelines(network_.timelines, lines_from(now));
   for (Index i = 0; i < network_.timelines.size(); ++i)
     if (network_.timelines[i].is_remembered()) timelines_.observe(i, now, past_.internal[i]);
   blocks_ = std::move(blocks);
@@ -242,24 +249,12 @@ Report Cycle::run(Time now) {
   const bool reordered = surprised && keep_order(now, report);
   does(Activity::repair, (settings_.repairs && surprised && repair(now, report)) || reordered);
   if (settings_.optimizes) does(Activity::optimize, optimize(now, report));
+  if (settings_.repairs && report.changed) keep_limits(report);
+  tell_losses(now, report);
   return report;
 }
 
-search::PlannedData Cycle::data() const {
-  search::PlannedData out;
-  for (const Block* one : by_start()) {
-    for (std::size_t i = 0; i < one->links.size(); ++i) {
-      const Link& each = one->links[i];
-      if (each.stage == Stage::doomed || each.stage == Stage::failed) continue;
-      const model::Task& task = network_.tasks[each.task];
-      if (task.downlinks) out.downlinks.push_back({each.task, each.start, each.end, task_id(one->number, i)});
-      for (const model::Product& product : task.products)
-        out.products.push_back(search::predicted(network_.tasks[chains_.chains[one->chain].task], task,
-                                                 product, each.end, past_.values));
-    }
-  }
-  return out;
-}
+search::PlannedData Cycle::data() const { return data_of(blocks_, network_, chains_, past_.values); }
 
 // What starts before the end of the commit window is the executive's from now on (R78).
 bool Cycle::commit(Time now) {
@@ -269,6 +264,7 @@ bool Cycle::commit(Time now) {
     for (Link& each : one.links) {
       if (each.stage != Stage::planned || each.start >= now + network_.cycle.commit_window) continue;
       each.stage = Stage::committed;
+      each.told = each.end - each.start;
       any = true;
     }
   }
@@ -394,44 +390,43 @@ Duration Cycle::duration(TaskIndex task) const {
   return temporal::seconds(model::duration_s(network_.tasks[task], past_.values));
 }
 
-// A downlink behind data that are there lasts as long as they take.
 Duration Cycle::length(const Block& block, std::size_t link) const {
   const TaskIndex task = block.links[link].task;
-  const Duration least = duration(task);
-  if (delivery_ == nullptr || !network_.tasks[task].downlinks || !block.begun()) return least;
-  std::set<TaskIndex> requests{chains_.chains[block.chain].task};
-  if (task_id(block.number, link) == takes_rests_) {
-    requests.merge(delivery_->requests_with_data());
-    for (const Block& other : blocks_)
-      if (other.number != block.number) requests.erase(chains_.chains[other.chain].task);
-  }
-  return std::max(least, delivery_->transmission(requests, past_.values));
+  return delivery_ != nullptr && network_.tasks[task].downlinks
+             ? sessions_.length(blocks_, block, link, *delivery_, past_.values)
+             : duration(task);
 }
 
-// Returns the first downlink of what has begun that is still to be committed.
-TaskId Cycle::first_downlink() const {
-  TaskId out = 0;
-  Time start = temporal::no_bound;
-  for (const Block& one : blocks_)
-    for (std::size_t i = 0; i < one.links.size(); ++i) {
-      const Link& each = one.links[i];
-      if (!one.begun() || one.failed() || each.stage != Stage::planned || each.start >= start) continue;
-      if (!network_.tasks[each.task].downlinks) continue;
-      out = task_id(one.number, i);
-      start = each.start;
-    }
+// Returns when something begins behind the link that claims what the link claims and does not give way.
+Time Cycle::free_until(const Link& of) const {
+  Time out = temporal::no_bound;
+  for (const model::Impact& claim : network_.tasks[of.task].impacts) {
+    if (!network_.timelines[claim.timeline].is_claim()) continue;
+    for (const Block& one : blocks_)
+      for (const Link& each : one.links) {
+        const model::Task& task = network_.tasks[each.task];
+        const bool stands = task.fixed || each.stage == Stage::committed;
+        if (stands && is_placed(each) && each.start >= of.end &&
+            std::ranges::find(task.impacts, claim.timeline, &model::Impact::timeline) != task.impacts.end())
+          out = std::min(out, each.start);
+      }
+  }
   return out;
 }
 
-// Data that turned out larger or smaller than foreseen make planned downlinks longer or shorter (R127).
+// Data that turned out larger or smaller than foreseen make planned downlinks longer or shorter (R127); what would run into something fixed
+// or committed goes with a later one.
 void Cycle::fit_downlinks() {
-  takes_rests_ = first_downlink();
+  if (delivery_ == nullptr) return;
+  sessions_.look(blocks_, *delivery_);
   for (Block& one : blocks_)
     for (std::size_t i = 0; i < one.links.size(); ++i) {
       Link& each = one.links[i];
       if (each.stage != Stage::planned || !one.begun() || one.failed()) continue;
-      const Duration takes = length(one, i);
-      if (each.end - each.start == takes) continue;
+      const Duration now = each.end - each.start;
+      Duration takes = length(one, i);
+      if (takes > now) takes = std::max(now, std::min(takes, free_until(each) - each.start));
+      if (takes == now) continue;
       each.end = each.start + takes;
       timelines_.move(task_id(one.number, i), each.start, each.end);
       to_optimize_ = true;
@@ -477,38 +472,27 @@ double Cycle::budget() const {
   return timelines_.value(network_.budget, end) - network_.timelines[network_.budget].lowest;
 }
 
-// What draws all the time, as a hotel load, is planned to the end of the mission. Where the budget does not last so long, the mission ends
-// before: half of what is left is for being there, and half for having something to do, so that what is worth most is done in time.
 bool Cycle::end_with_budget(Time now, Report& report) {
-  const auto& definition = network_.timelines[network_.budget];
-  for (Block& one : blocks_) {
-    if (one.links.size() != 1 || one.links.front().stage != Stage::running) continue;
-    Link& load = one.links.front();
-    const model::Task& task = network_.tasks[load.task];
-    const double power = model::draw(network_, task, past_.values);
-    if (!task.commands.empty() || power <= 0 || load.end <= now) continue;
-    const double left = timelines_.value(network_.budget, now) - definition.lowest;
-    if (left > power * temporal::to_seconds(load.end - now)) {
-      if (plan_end_ <= now) plan_end_ = network_.cycle.plan_end;
-      continue;
-    }
-    load.end = plan_end_ = now + temporal::seconds(left / power / 2);
-    timelines_.move(task_id(one.number, 0), load.start, load.end);
-    report.notes.push_back("the budget does not last to the end of the mission: it is planned to " +
-                           temporal::to_text(plan_end_));
-    std::vector<std::uint32_t> beyond;
-    for (const Block& other : blocks_)
-      if (!other.begun() && other.links.back().end > plan_end_) beyond.push_back(other.number);
-    for (const std::uint32_t number : beyond) drop(*block(number), "the mission ends before", report);
-    to_schedule_ = to_optimize_ = true;
-    return true;
+  const auto ends = early_end(network_, past_.values, timelines_, blocks_, now);
+  if (!ends) {
+    if (plan_end_ <= now) plan_end_ = network_.cycle.plan_end;  // it lasts after all
+    return false;
   }
-  return false;
+  Link& load = block(ends->load)->links.front();
+  load.end = plan_end_ = ends->end;
+  timelines_.move(task_id(ends->load, 0), load.start, load.end);
+  report.notes.push_back("the budget does not last to the end of the mission: it is planned to " +
+                         temporal::to_text(plan_end_));
+  std::vector<std::uint32_t> beyond;
+  for (const Block& other : blocks_)
+    if (!other.begun() && other.links.back().end > plan_end_) beyond.push_back(other.number);
+  for (const std::uint32_t number : beyond) drop(*block(number), "the mission ends before", report);
+  to_schedule_ = to_optimize_ = true;
+  return true;
 }
 
-Cycle::Found Cycle::plan_for(Time now, const std::set<TaskIndex>& candidates, Report& report,
-                             const search::Plan* known) {
-  const std::vector<double> newest = values_now(now);
+search::Problem Cycle::problem_for(Time now, const std::set<TaskIndex>& candidates,
+                                   std::span<const double> newest) {
   search::Problem problem{network_, past_.values, chains_, assessor_, scheduler_, timelines_};
   problem.from = now + network_.cycle.commit_window;
   problem.until = plan_end_;
@@ -521,7 +505,15 @@ Cycle::Found Cycle::plan_for(Time now, const std::set<TaskIndex>& candidates, Re
     problem.committed.push_back(std::move(standing));
   }
   problem.closed = closed_but(candidates, now);
+  problem.standing = data();
   if (delivery_ != nullptr) delivery_->join(problem, now);
+  return problem;
+}
+
+Cycle::Found Cycle::plan_for(Time now, const std::set<TaskIndex>& candidates, Report& report,
+                             const search::Plan* known) {
+  const std::vector<double> newest = values_now(now);
+  search::Problem problem = problem_for(now, candidates, newest);
   const auto beats = [](const auto& worth, double cost, const auto& known_worth, double known_cost) {
     return worth > known_worth || (worth == known_worth && cost < known_cost - 1e-6);
   };

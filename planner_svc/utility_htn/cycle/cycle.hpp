@@ -12,6 +12,7 @@
 #include "core/temporal/timelines/timelines.hpp"
 #include "planner_svc/utility_htn/assessor/assessor.hpp"
 #include "planner_svc/utility_htn/cycle/placement.hpp"
+#include "planner_svc/utility_htn/cycle/sessions.hpp"
 #include "planner_svc/utility_htn/delivery/delivery.hpp"
 #include "planner_svc/utility_htn/search/search.hpp"
 
@@ -38,10 +39,11 @@ struct Settings {
 
 /// Tells what a cycle did.
 struct Report {
-  std::vector<Activity> done;      ///< in their order; those that had nothing to do are not named
-  std::uint64_t explored = 0;      ///< entries that searches took from their queues
-  bool changed = false;            ///< the placements are others than before
-  std::vector<std::string> notes;  ///< what was dropped or withdrawn, and why, in words
+  std::vector<Activity> done;  ///< in their order; those that had nothing to do are not named
+  std::uint64_t explored = 0;  ///< entries that searches took from their queues
+  bool changed = false;        ///< the placements are others than before
+  std::vector<std::string>
+      notes;  ///< what was dropped or withdrawn, and what is planned no longer, and why, in words
 };
 
 /// Is what outlives the process: with it and the blocks that are executed a cycle goes on as before.
@@ -126,11 +128,14 @@ class Cycle {
   void put_in(const Block& placed);
   void abandon(Block& begun, const std::string& why, Report& report);
   void forget_over(Report& report);
+  void tell_losses(temporal::Time now, Report& report);
   void edit_network(model::TaskIndex task);
   struct Found {
     search::Plan plan;
     bool better = true;  // than the plan that was held against it
   };
+  search::Problem problem_for(temporal::Time now, const std::set<model::TaskIndex>& candidates,
+                              std::span<const double> newest);
   Found plan_for(temporal::Time now, const std::set<model::TaskIndex>& candidates, Report& report,
                  const search::Plan* known = nullptr);
   void adopt(const search::Plan& plan);
@@ -145,8 +150,9 @@ class Cycle {
   temporal::timelines::Footprint footprint(const Block& block, std::size_t link) const;
   temporal::Duration duration(model::TaskIndex task) const;
   temporal::Duration length(const Block& block, std::size_t link) const;
+  temporal::Time free_until(const Link& of) const;
   void fit_downlinks();
-  TaskId first_downlink() const;
+  void keep_limits(Report& report);
   double budget() const;
   bool end_with_budget(temporal::Time now, Report& report);
   std::vector<double> values_now(temporal::Time now) const;
@@ -162,10 +168,12 @@ class Cycle {
   std::set<model::TaskIndex> requested_;
   std::map<model::TaskIndex, std::uint32_t> failures_;
   std::vector<Block> blocks_;  // by number
-  TaskId takes_rests_ = 0;     // the downlink that is next; also of data whose own has gone without them
+  Sessions sessions_;
   temporal::Time plan_end_ =
       temporal::no_bound;  // of the network, or before it where the budget does not last
   std::uint32_t last_block_ = 0;
+  std::map<model::TaskIndex, std::uint32_t>
+      planned_;                     // after the newest run: requests not begun, and their chains
   std::vector<std::string> notes_;  // since the cycle before
   bool to_schedule_ = true;         // something waits that was not tried in this situation
   bool scheduled_ = false;          // ever

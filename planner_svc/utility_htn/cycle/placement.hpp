@@ -31,6 +31,7 @@ struct Link {
   temporal::Time start{0};
   temporal::Time end{0};
   Stage stage = Stage::planned;
+  temporal::Duration told{0};  ///< what it takes as the executive was told; 0: not committed yet
   friend bool operator==(const Link&, const Link&) = default;
 };
 

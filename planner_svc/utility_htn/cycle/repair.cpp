@@ -74,6 +74,29 @@ bool Cycle::keep_rules(Time now, Report& report) {
   return before.size() < order.size();
 }
 
+// What has moved to another sol may take more of it than its limit permits: downlinks that were made longer take less, and then what has not
+// begun gives way, the last one first.
+void Cycle::keep_limits(Report& report) {
+  if (delivery_ == nullptr) return;
+  auto overdrawn = delivery_->overdrawn_sols(data().downlinks, past_.values);
+  if (overdrawn.empty()) return;
+  fit_downlinks();
+  while (!(overdrawn = delivery_->overdrawn_sols(data().downlinks, past_.values)).empty()) {
+    const Block* last = nullptr;
+    for (const Block& one : blocks_) {
+      const auto overdraws = [&](const Link& each) {
+        return network_.tasks[each.task].downlinks &&
+               overdrawn.contains(delivery_->sol_of(each.start, past_.values));
+      };
+      if (!one.begun() && std::ranges::any_of(one.links, overdraws) &&
+          (last == nullptr || one.links.front().start > last->links.front().start))
+        last = &one;
+    }
+    if (last == nullptr) break;
+    drop(*last, "downlinks of its sol take more than its limit", report);
+  }
+}
+
 // Conflicts behind the commit window are mended by moving what has begun to later, and taking out what has not; the
 // latter is scheduled anew at once.
 bool Cycle::repair(Time now, Report& report) {

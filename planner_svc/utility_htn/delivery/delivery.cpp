@@ -71,7 +71,7 @@ struct Delivery::Question {
   }
 };
 
-bool Delivery::hear(Existing product) {
+bool Delivery::hear(Existing product, Time now) {
   product.data.utility = sane(product.data.utility);
   const auto id = [](const Existing& existing) -> const std::string& { return existing.data.id; };
   const auto at = std::ranges::lower_bound(existing_, product.data.id, {}, id);
@@ -79,13 +79,15 @@ bool Delivery::hear(Existing product) {
   if (at != existing_.end() && at->data.id == product.data.id) {
     if (product.request >= network_.tasks.size()) product.request = at->request;
     if (*at == product) return false;
+    if (at->fate == Fate::stored && product.fate != Fate::stored) last_sent_ = std::max(last_sent_, now);
     *at = std::move(product);
   } else {
     existing_.insert(at, std::move(product));
     products_.insert(products_.begin() + index, assessor::ExistingProduct{});
   }
-  const Existing& now = existing_[static_cast<std::size_t>(index)];
-  products_[static_cast<std::size_t>(index)] = {now.data.id, now.task, now.request, now.data.utility};
+  const Existing& newest = existing_[static_cast<std::size_t>(index)];
+  products_[static_cast<std::size_t>(index)] = {newest.data.id, newest.task, newest.request,
+                                                newest.data.utility};
   return true;
 }
 
@@ -134,6 +136,35 @@ std::set<model::TaskIndex> Delivery::requests_with_data() const {
   return out;
 }
 
+temporal::Duration Delivery::longest(model::TaskIndex task, Time start,
+                                     std::span<const search::PlannedDownlink> others,
+                                     const model::Values& values) const {
+  const std::uint32_t sol = rules_.sol_of(start, values);
+  double left = rules_.sol_limit_j(values) - spent_in(sol);
+  for (const search::PlannedDownlink& other : others)
+    if (const downlink::Window window = rules_.window(other, values); window.sol == sol)
+      left -= Rules::joules(window);
+  const double joules = std::max(0.0, std::min(left, rules_.downlink_limit_j(values)));
+  const double power = model::draw(network_, network_.tasks[task], values);
+  if (power <= 0 || !std::isfinite(joules)) return temporal::no_bound;
+  return temporal::seconds(std::floor(joules / power));
+}
+
+std::set<std::uint32_t> Delivery::overdrawn_sols(std::span<const search::PlannedDownlink> downlinks,
+                                                 const model::Values& values) const {
+  std::set<std::uint32_t> out;
+  const double limit = rules_.sol_limit_j(values);
+  if (!rules_.has_rate() || !std::isfinite(limit)) return out;
+  std::map<std::uint32_t, double> joules;
+  for (const search::PlannedDownlink& one : downlinks) {
+    const downlink::Window window = rules_.window(one, values);
+    joules[window.sol] += Rules::joules(window);
+  }
+  for (const auto& [sol, sum] : joules)
+    if (sum + spent_in(sol) > limit) out.insert(sol);
+  return out;
+}
+
 RankVector Delivery::received() const {
   RankVector out;
   for (const Existing& product : existing_)
@@ -164,8 +195,13 @@ Delivery::Question Delivery::question(const search::PlannedData& planned, const 
                        [&](const search::PlannedDownlink& one) { return one.end > now; });
   std::ranges::stable_sort(out.downlinks, {}, &search::PlannedDownlink::start);
   for (const search::PlannedDownlink& one : out.downlinks) {
-    out.windows.push_back(rules_.window(one, values));
-    out.windows.back().id = network_.tasks[one.task].id;
+    downlink::Window& window = out.windows.emplace_back(rules_.window(one, values));
+    window.id = network_.tasks[one.task].id;
+    if (one.start >= now) continue;
+    // One that runs has only what is left of its time: the product that it is sending it began with when the last one was sent.
+    const double before = Rules::joules(window);
+    window.start = std::clamp(last_sent_, window.start, window.latest_end);
+    window.energy_limit_j = std::max(0.0, window.energy_limit_j - (before - Rules::joules(window)));
   }
   const double limit = rules_.sol_limit_j(values);
   if (std::isfinite(limit)) {

@@ -87,7 +87,8 @@ class Delivery {
   /// Takes in a product's newest state; returns whether anything is new. Its request is what it was as soon as nobody knows it any more,
   /// since the plan forgets chains that have ended. A score that is negative or not finite counts as 0, one above a
   /// million as a million.
-  bool hear(Existing product);
+  /// `now` is when it was heard: a downlink that runs has been sending the next product since the last one was sent.
+  bool hear(Existing product, temporal::Time now = temporal::Time{0});
   /// Takes in what an executed downlink took, for the limit of its sol. `activity` is unique; what is told again counts once.
   void executed(std::uint64_t activity, model::TaskIndex task, temporal::Time start, temporal::Time end,
                 const model::Values& values);
@@ -102,9 +103,20 @@ class Delivery {
   bool limited() const { return rules_.has_rate(); }
   /// Returns how long the data take that wait on board, of all that these requests have generated but what is residual. A downlink that is
   /// to bring them home lasts that long at least (R127).
-  temporal::Duration transmission(const std::set<model::TaskIndex>& requests, const model::Values& values) const;
+  temporal::Duration transmission(const std::set<model::TaskIndex>& requests,
+                                  const model::Values& values) const;
   /// Returns the requests whose data wait on board, without residual ones.
   std::set<model::TaskIndex> requests_with_data() const;
+  /// Returns how long a downlink that starts then may last by the limit of one downlink and, beside all others, by that of its sol.
+  temporal::Duration longest(model::TaskIndex task, temporal::Time start,
+                             std::span<const search::PlannedDownlink> others,
+                             const model::Values& values) const;
+  /// Returns the sols of which these downlinks and what was executed take more than the limit.
+  std::set<std::uint32_t> overdrawn_sols(std::span<const search::PlannedDownlink> downlinks,
+                                         const model::Values& values) const;
+  std::uint32_t sol_of(temporal::Time time, const model::Values& values) const {
+    return rules_.sol_of(time, values);
+  }
   /// Returns what was received on Earth with its last byte: executed utility, of which nothing is predicted.
   temporal::RankVector received() const;
 
@@ -130,6 +142,7 @@ class Delivery {
   std::map<std::uint32_t, double> spent_;            // joules, by sol
   std::set<std::uint64_t> executed_;
   Counts counts_;
+  temporal::Time last_sent_{0};  // when the newest product was sent
 };
 
 }  // namespace roci::planner::utility_htn::delivery

@@ -109,6 +109,7 @@ model::DataProduct predicted(const Task& request, const Task& task, const model:
 }
 
 PlannedData ChainTable::committed_data() const {
+  if (problem_.standing) return *problem_.standing;
   PlannedData out;
   for (const Placed& placed : problem_.committed) add_data(placed, out);
   out.committed_products = out.products.size();

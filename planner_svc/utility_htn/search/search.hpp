@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -62,7 +63,9 @@ struct Problem {
   double budget = 0;  ///< what a plan costs stays below it; what is committed does not count
   std::span<const double> timelines_now{};  ///< newest values, by timeline Index; for the Assessor
   std::span<const assessor::ExistingProduct> products{};
-  std::vector<Placed> committed{};           ///< chains that are placed in `anchored`, begun or not
+  std::vector<Placed> committed{};  ///< chains that are placed in `anchored`, begun or not
+  std::optional<PlannedData>
+      standing{};  ///< what `committed` generates and sends at its real times; none: as the network says
   std::vector<model::TaskIndex> closed{};    ///< requests that are done, failed for good or withdrawn
   temporal::timelines::TaskId first_id = 0;  ///< see task_id()
   DownlinkQuestion downlink{};               ///< none: every product gets its downlink

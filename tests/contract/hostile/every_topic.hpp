@@ -43,6 +43,9 @@ void for_each_topic(Use use) {
   use(topics::network_status);
   use(topics::downlink_schedule);
   use(topics::mission_outlook);
+  use(topics::executed_plan);
+  use(topics::terrain_finding);
+  use(topics::map_patch);
   use(topics::plan_delta);
   use(topics::plan_receipt);
   use(topics::call_cancel);

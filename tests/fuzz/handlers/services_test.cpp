@@ -30,7 +30,8 @@ namespace fs = std::filesystem;
 namespace transport = services::transport;
 using services::node::NodeOptions;
 
-const fs::path kMission = ROCI_SOURCE_DIR "/missions/planetary";
+const fs::path kPlanetary = ROCI_SOURCE_DIR "/missions/planetary";
+const fs::path kLander = ROCI_SOURCE_DIR "/tests/missions/lander";  // its engine plans all the time
 constexpr int kDomain = 77;
 constexpr int kBatch = 200;  // samples between two turns of the services
 
@@ -47,17 +48,18 @@ struct Seat {
   std::unique_ptr<services::Service> service;
 };
 
-// The planetary mission's services on the live clock, a launcher's line and a console.
+// A mission's services on the live clock, a launcher's line and a console.
 class Crew {
  public:
-  Crew() : folder_(fs::temp_directory_path() / ("roci-fuzz-handlers-" + std::to_string(getpid()))) {
+  explicit Crew(const fs::path& mission)
+      : folder_(fs::temp_directory_path() / ("roci-fuzz-handlers-" + std::to_string(getpid()))) {
     fs::remove_all(folder_);
     fs::create_directories(folder_);
     services::RunSettings run;
-    run.mission = kMission;
+    run.mission = mission;
     run.run_folder = folder_;
-    for (const mission::ServiceEntry& entry : rehearsal::crew_of(kMission)) {
-      NodeOptions options = rehearsal::node_options(kMission, entry, 0);
+    for (const mission::ServiceEntry& entry : rehearsal::crew_of(mission)) {
+      NodeOptions options = rehearsal::node_options(mission, entry, 0);
       options.clock = services::clock::ClockMode::live;
       options.epoch_unix_us = services::clock::unix_us();
       Seat seat;
@@ -69,14 +71,14 @@ class Crew {
     }
     NodeOptions launcher;
     launcher.name = "launcher";
-    launcher.run = "planetary";
+    launcher.run = mission.filename();
     launcher.incarnation = 0;
     launcher.clock = services::clock::ClockMode::observer;
     launcher_ = std::make_unique<services::Node>(launcher, open_inproc("launcher"));
     progress_ = std::make_unique<services::launch::Progress>(*launcher_, false);
     services::process::Connection connection;
     connection.dds = "inproc";
-    connection.run = "planetary";
+    connection.run = mission.filename();
     connection.transport.domain = kDomain;
     console_ = std::make_unique<console::lib::Client>(connection);
   }
@@ -126,10 +128,9 @@ class Intruder {
   std::vector<std::unique_ptr<transport::Writer>> writers_;
 };
 
-TEST(FuzzHandlers, NoServiceFallsOverWhatDecodes) {
-  Crew crew;
+void expect_to_go_on(const fs::path& mission, SampleMaker maker) {
+  Crew crew(mission);
   Intruder intruder;
-  SampleMaker maker(7);
   for (int i = 0; i < 20; ++i) crew.turn();
   for (int sent = 0; sent < rounds(6000); ++sent) {
     const std::size_t topic = maker.below(intruder.topics());
@@ -148,6 +149,36 @@ TEST(FuzzHandlers, NoServiceFallsOverWhatDecodes) {
   for (const auto& [name, beat] : crew.view().services()) heard.insert(name);
   for (const Seat& seat : crew.seats())
     EXPECT_TRUE(heard.contains(seat.node->options().name)) << seat.node->options().name << " is silent";
+}
+
+TEST(FuzzHandlers, NoServiceFallsOverWhatDecodes) { expect_to_go_on(kPlanetary, SampleMaker(7)); }
+
+// Networks, downlink schedules and outlooks come to services that use them.
+TEST(FuzzHandlers, NoServiceOfALanderFallsOverWhatDecodes) {
+  const std::vector<std::string> words{"lander",
+                                       "lander.battery",
+                                       "lander.lamp",
+                                       "lit",
+                                       "dark",
+                                       "small-lander",
+                                       "utility_htn",
+                                       "mission",
+                                       "request",
+                                       "task",
+                                       "sample_near",
+                                       "dig_near#1.0",
+                                       "network#1",
+                                       "dig_s_far",
+                                       "picture",
+                                       "eye",
+                                       "radio",
+                                       "done.view",
+                                       "image_near",
+                                       "farewell",
+                                       "n2",
+                                       "parameter.dig_w",
+                                       "sample_near/image_near/picture"};
+  expect_to_go_on(kLander, SampleMaker(11, "lander", words));
 }
 
 }  // namespace

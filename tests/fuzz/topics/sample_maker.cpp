@@ -152,7 +152,7 @@ class Writing {
       mark(Mark::Kind::enumerator, found->second);
       return number(maker_.below(found->second), 4);
     }
-    if (type == "string") return text(member.name == "run" && maker_.below(16) != 0 ? "planetary" : word());
+    if (type == "string") return text(member.name == "run" && maker_.below(16) != 0 ? maker_.run() : word());
     if (type == "boolean") return number(maker_.below(2), 1);
     if (type == "octet") return number(maker_.below(256), 1);
     if (type == "double") {
@@ -167,6 +167,8 @@ class Writing {
 
   std::string word() {
     if (maker_.below(64) == 0) return std::string(maker_.below(2000), 'x');
+    if (!maker_.words().empty() && maker_.below(2) == 0)
+      return maker_.words()[maker_.below(maker_.words().size())];
     return kWords[maker_.below(kWords.size())];
   }
 

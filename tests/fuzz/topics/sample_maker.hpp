@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "services/transport/transport.hpp"
@@ -29,6 +30,9 @@ struct MadeSample {
 class SampleMaker {
  public:
   explicit SampleMaker(std::uint64_t seed) : random_(seed) {}
+  /// Members called `run` name this one, and every other text is one of `words`.
+  SampleMaker(std::uint64_t seed, std::string run, std::vector<std::string> words)
+      : random_(seed), run_(std::move(run)), words_(std::move(words)) {}
 
   /// A whole sample of this type ("Goal"). Sequences have at most `longest` elements, and fewer the deeper they stand. Texts come
   /// from the words of the planetary mission, so that handlers look on; members called `run` name its run.
@@ -39,9 +43,13 @@ class SampleMaker {
 
   std::size_t below(std::size_t bound) { return bound == 0 ? 0 : random_() % bound; }
   std::mt19937_64& random() { return random_; }
+  const std::string& run() const { return run_; }
+  const std::vector<std::string>& words() const { return words_; }
 
  private:
   std::mt19937_64 random_;
+  std::string run_ = "planetary";
+  std::vector<std::string> words_;
 };
 
 /// Writes a number in the payload's byte order.

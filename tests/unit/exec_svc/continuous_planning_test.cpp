@@ -26,6 +26,7 @@ using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::Field;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 using ::testing::IsSupersetOf;
 using ::testing::Not;
 
@@ -128,19 +129,64 @@ TEST_F(ContinuousPlanning, APlanEndsWithTheLastGoalAndWhatRunsByCommand) {
   sends.command_name = "send";
   sends.commit = CommitState::committed;
   PlanActivity& waits = engine.activity("waits", "", 1);
-  waits.pre = temporal::compare("rover.camera", temporal::ConditionOp::eq, state("gone"));
-  waits.wait_timeout = seconds(1e6);
   waits.commit = CommitState::committed;
+  engine.window(engine.start("waits"), 5e5, 1e6);
   engine.image("next", CommitState::committed, 500);
   at(700, [this] { pending.acks.push_back({"sends", 1, executive::CommandStage::completed, "", ""}); });
   run(600, with_plan(robot_and({photo("1")})));
   EXPECT_EQ(reactor.goals().find({"ground", "1"})->state, goals::GoalState::achieved);
   EXPECT_EQ(reactor.outcome(), "") << "a command is under way";
-  EXPECT_THAT(begun(), ElementsAre("1"));
+  EXPECT_THAT(begun(), ElementsAre("1", "next")) << "what is committed is carried out";
   run(1000, {});
   EXPECT_EQ(reactor.outcome(), "achieved");
-  EXPECT_THAT(begun(), ElementsAre("1")) << "nothing begins any more";
   EXPECT_THAT(trace, AllOf(Contains("plan.finished"), Not(Contains("cancel"))));
+}
+
+// A command behind a wait that nothing ends would hold the mission open, too.
+TEST_F(ContinuousPlanning, APlanEndsThoughWhatIsCommittedWaitsForWhatNeverComes) {
+  engine.image("1", CommitState::committed);
+  PlanActivity& waits = engine.activity("waits", "", 1);
+  waits.pre = temporal::compare("rover.camera", temporal::ConditionOp::eq, state("gone"));
+  waits.wait_timeout = seconds(1e6);
+  waits.commit = CommitState::committed;
+  waits.preferred_start = seconds(300);
+  engine.image("next", CommitState::committed);
+  engine.find("next").preferred_start = seconds(301);
+  engine.after("waits", "next");
+  run(350, with_plan(robot_and({photo("1")})));
+  EXPECT_EQ(reactor.outcome(), "") << "its time has just come";
+  run(1000, {});
+  EXPECT_EQ(reactor.outcome(), "achieved");
+  EXPECT_THAT(begun(), ElementsAre("1"));
+}
+
+// What the ground has set counts until an activity makes something else of it, whatever versions come and whoever asks for it again.
+TEST_F(ContinuousPlanning, AnActivityChangesWhatTheGroundHasSet) {
+  mission.ground.values = {"hold"};
+  reactor = Reactor(mission);
+  const auto clear = [this](const std::string& id) {
+    orders::Order order;
+    order.key = {"ground", id};
+    order.kind = orders::OrderKind::set_value;
+    order.target = "hold";
+    order.content = state("clear");
+    pending.ground_orders.push_back(order);
+  };
+  PlanActivity& holds = engine.activity("holds", "", 10);
+  holds.commit = CommitState::committed;
+  holds.impacts = {{"hold", temporal::ImpactKind::assign, temporal::ImpactWhen::at_end, state("held")}};
+  engine.window(engine.start("holds"), 100);
+  engine.image("1", CommitState::committed, 200);
+  engine.find("1").pre = temporal::compare("hold", temporal::ConditionOp::eq, state("clear"));
+  engine.find("1").wait_timeout = seconds(1e4);
+  at(50, [&] { clear("first"); });
+  send_at(150, [this] { engine.image("2", CommitState::planned, 5000); });
+  run(400, with_plan(robot_and({photo("1")})));
+  EXPECT_THAT(begun(), IsEmpty());
+  EXPECT_EQ(reactor.ground_values().at("hold"), temporal::Value(state("held")));
+  at(500, [&] { clear("second"); });
+  run(600, {});
+  EXPECT_THAT(begun(), ElementsAre("1"));
 }
 
 TEST_F(ContinuousPlanning, WhatRunsGoesOnUnderTheNextVersion) {

@@ -15,12 +15,14 @@ namespace {
 namespace fs = std::filesystem;
 
 // Words of the same shape that are no codes: names of files, windows, partitions and places of files.
-const std::set<std::string> kOthers{
-    "begun.json",     "call.error",      "call.value",    "comm.window",  "contingencies.wipe-lens",
-    "earth.window",   "effects.jsonl",   "expected.json", "identity.key", "issued.json",
-    "journal.sqlite", "launch.json",     "launch.lock",   "mission.yaml", "orders.json",
-    "products.jsonl", "permissions.key", "revoked.pem",   "roci.inner",   "roci.team",
-    "summary.json",   "sun.window"};
+const std::set<std::string> kOthers{"activity.argument", "begun.json",     "call.error",
+                                    "call.value",        "comm.window",    "contingencies.wipe-lens",
+                                    "earth.window",      "effects.jsonl",  "expected.json",
+                                    "identity.key",      "issued.json",    "journal.sqlite",
+                                    "launch.json",       "launch.lock",    "mission.yaml",
+                                    "orders.json",       "products.jsonl", "permissions.key",
+                                    "revoked.pem",       "roci.inner",     "roci.team",
+                                    "summary.json",      "sun.window"};
 
 std::set<std::string> codes_in_sources() {
   std::set<std::string> out;

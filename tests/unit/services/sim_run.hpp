@@ -4,6 +4,7 @@
 #include <atomic>
 #include <exception>
 #include <future>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <stdexcept>
@@ -48,6 +49,7 @@ class SimRun {
     options.master.roster = roster_;
     options.vendor = vendor;
     options.links = links;
+    if (const auto robot = robots.find(name); robot != robots.end()) options.robot = robot->second;
     auto member = std::make_unique<Member>();
     member->name = name;
     member->node = std::make_unique<Node>(options, transport(vendor));
@@ -115,6 +117,7 @@ class SimRun {
 
   node::MasterOptions master;
   link::LinkTable links;  // of the nodes that are added from then on
+  std::map<std::string, std::string> robots;  // by service, of those nodes
 
  private:
   struct Member {

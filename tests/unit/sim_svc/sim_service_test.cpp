@@ -312,6 +312,27 @@ TEST_F(SimService, ReportsWhetherTheEventsCameAsExpected) {
               HasSubstr("after 0 of 2 events, scenario.over was expected, but there was hazard.seen"));
 }
 
+// Orders are the console's in a secure run; a mission may give its world the same right.
+TEST_F(SimService, InASecureRunAScenarioSetsValuesOnlyWithTheConsolesRight) {
+  scenario("stimuli:\n  - {at_s: 10, set: {id: go, timeline: rover.go, value: true}}\n");
+  services::SimRun run({"sim_svc"});
+  services::Node& node = run.add("sim_svc");
+  services::RunSettings settings;
+  settings.mission = folder_;
+  EXPECT_NO_THROW(make_service(node, settings));
+  settings.secure = true;
+  try {
+    make_service(node, settings);
+    ADD_FAILURE() << "it was made";
+  } catch (const mission::FileError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("nominal.yaml:4:"));
+    EXPECT_THAT(error.what(), HasSubstr("roci order set"));
+  }
+  std::ofstream(folder_ / "mission.yaml", std::ios::app)
+      << "format: 1\nname: m\nservices: [{name: sim_svc, clock: master, rights: [world, console]}]\n";
+  EXPECT_NO_THROW(make_service(node, settings));
+}
+
 TEST_F(SimService, EndsAtTheLatestWhenTheTimeIsUp) { EXPECT_EQ(fly({}).end, 2000s); }
 
 TEST_F(SimService, TheSameSeedIsTheSameRun) {

@@ -45,6 +45,28 @@ TEST(Preconditions, UnmetWithinTheWaitTimeoutFailWithTheReason) {
   EXPECT_THAT(in_time.run(), Contains("20 execute drive#1"));
 }
 
+TEST(Preconditions, AWaitOfWhatIsCommittedGoesOnUnderTheNextVersion) {
+  const auto fails_at = [](temporal::CommitState commit) {
+    const PlanBuilder b = one([&](PlanActivity& a) {
+      a.pre = armed;
+      a.wait_timeout = seconds(20);
+      a.commit = commit;
+    });
+    Executive executive;
+    EXPECT_TRUE(executive.load(b.plan, {}).empty());
+    double now = 0;
+    for (; now < 100; now += 5) {
+      if (now == 15) {
+        EXPECT_TRUE(executive.load(b.plan, seconds(now)).empty());
+      }
+      if (executive.step(seconds(now), {}).outcome.kind == OutcomeKind::broken) break;
+    }
+    return now;
+  };
+  EXPECT_EQ(fails_at(temporal::CommitState::committed), 20);
+  EXPECT_EQ(fails_at(temporal::CommitState::planned), 35) << "its start may be another one";
+}
+
 TEST(Preconditions, UnmetUntilTheLatestStartBreakThePlanWithTheReason) {
   PlanBuilder b = one([](PlanActivity& a) { a.pre = armed; });
   b.window(b.start("drive"), 0, 30);

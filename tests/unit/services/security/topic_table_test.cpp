@@ -114,14 +114,14 @@ std::vector<std::string> table_of(const Topics&... all) {
 
 TEST(TopicTable, OfThePageIsTheOneOfTheCode) {
   namespace t = topics;
-  const std::vector<std::string> made =
-      table_of(t::clock_ready, t::clock_step, t::clock_done, t::heartbeat, t::time_probe, t::exec_member,
-               t::exec_journal, t::lease_request, t::lease_state, t::goal_hand_over, t::event, t::goal,
-               t::goal_status, t::command, t::command_ack, t::observation, t::data_product, t::hazard,
-               t::plan, t::step_status, t::mission_status, t::function_offer, t::order, t::order_status,
-               t::decision, t::decision_answer, t::decision_receipt, t::network_order, t::network_status,
-               t::downlink_schedule, t::mission_outlook, t::plan_delta, t::plan_receipt, t::call_cancel,
-               t::plan_request, t::function_call, t::path_request, t::arm_motion);
+  const std::vector<std::string> made = table_of(
+      t::clock_ready, t::clock_step, t::clock_done, t::heartbeat, t::time_probe, t::exec_member,
+      t::exec_journal, t::lease_request, t::lease_state, t::goal_hand_over, t::event, t::goal, t::goal_status,
+      t::command, t::command_ack, t::observation, t::data_product, t::hazard, t::plan, t::executed_plan, t::step_status,
+      t::mission_status, t::function_offer, t::order, t::order_status, t::decision, t::decision_answer,
+      t::decision_receipt, t::network_order, t::network_status, t::downlink_schedule, t::mission_outlook,
+      t::terrain_finding, t::map_patch, t::plan_delta, t::plan_receipt, t::call_cancel, t::plan_request,
+      t::function_call, t::path_request, t::arm_motion);
   EXPECT_EQ(made.size(), topic_rights().size()) << "a topic of topics.hpp is missing in this test";
   std::vector<std::string> written;
   std::istringstream page(text_of(ROCI_SOURCE_DIR "/docs/dds.md"));

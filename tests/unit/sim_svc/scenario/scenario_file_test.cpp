@@ -57,12 +57,42 @@ class ScenarioFile : public testing::Test {
 
 TEST_F(ScenarioFile, TheSurfaceOfTheScenarioStandsOverThatOfTheMission) {
   std::string mission = kRover;
-  mission.replace(mission.find("  robots:"), 0, "  surface: {odd_per_hectare: 7, sun: {elevation_deg: 50}}\n");
-  const RunSetup run = load(head_ + "world: {surface: {odd_per_hectare: 3}, panorama_every_s: 60}\n", mission);
+  mission.replace(mission.find("  robots:"), 0,
+                  "  surface: {odd_per_hectare: 7, sun: {elevation_deg: 50}}\n");
+  const RunSetup run =
+      load(head_ + "world: {surface: {odd_per_hectare: 3}, panorama_every_s: 60}\n", mission);
   EXPECT_EQ(run.world.ground.surface.odd_per_hectare, 3);
   EXPECT_EQ(run.world.ground.surface.sun.elevation_deg, 50);
-  EXPECT_THAT(error_of(head_ + "world: {panorama_every_s: 0.5}\n"), HasSubstr("must be at least 1, or 0 for none"));
+  EXPECT_THAT(error_of(head_ + "world: {panorama_every_s: 0.5}\n"),
+              HasSubstr("must be at least 1, or 0 for none"));
   EXPECT_THAT(error_of(head_ + "world: {width_px: 4}\n"), HasSubstr("must lie between"));
+}
+
+TEST_F(ScenarioFile, AStimulusSetsAValueAsTheGroundDoes) {
+  const Scenario s =
+      load(head_ +
+           "stimuli:\n"
+           "  - {at_s: 1, set: {id: a, timeline: rover.go, value: true}}\n"
+           "  - {at_s: 2, set: {id: b, timeline: rover.share, value: -0.5, issuer: me, robot: rover}}\n"
+           "  - {at_s: 3, set: {id: c, timeline: hold, value: clear}}\n"
+           "  - {at_s: 4, set: {id: d, timeline: hold, value: 5mm}}\n"
+           "  - {at_s: 5, set: {id: e, timeline: hold, value: inf}}\n")
+          .scenario;
+  const auto set = [&](std::size_t i) { return std::get<ValueStimulus>(s.stimuli.at(i).what); };
+  EXPECT_EQ(set(0).issuer, "ground");
+  EXPECT_EQ(set(0).id, "a");
+  EXPECT_EQ(set(0).timeline, "rover.go");
+  EXPECT_EQ(set(0).value, temporal::Value(true));
+  EXPECT_EQ(set(1).issuer, "me");
+  EXPECT_EQ(set(1).robot, "rover");
+  EXPECT_EQ(set(1).value, temporal::Value(-0.5));
+  EXPECT_EQ(set(2).value, temporal::Value(temporal::state("clear")));
+  EXPECT_EQ(set(3).value, temporal::Value(temporal::state("5mm"))) << "a name, as all of it is no number";
+  EXPECT_EQ(set(4).value, temporal::Value(temporal::state("inf"))) << "no timeline is infinite";
+  EXPECT_THAT(error_of(head_ + "stimuli:\n  - {at_s: 1, set: {id: a, value: true}}\n"),
+              HasSubstr("'timeline' is missing"));
+  EXPECT_THAT(error_of(head_ + "stimuli:\n  - {at_s: 1, set: {id: a, timeline: t, to: true}}\n"),
+              HasSubstr("'to'"));
 }
 
 TEST_F(ScenarioFile, ReadsTheExpectedOrderOfEvents) {

@@ -104,7 +104,7 @@ TEST(Commands, UnknownComponentsAndCommandsAreRefusedByNamingTheKnown) {
   EXPECT_THAT(run.last_ack("a")->word.reason, HasSubstr("nav, arm, camera, gripper, radio"));
   run.command(seconds(2), execute("b", "nav", "fly"));
   EXPECT_EQ(run.stage("b"), Stage::rejected);
-  EXPECT_THAT(run.last_ack("b")->word.reason, HasSubstr("drive, stop"));
+  EXPECT_THAT(run.last_ack("b")->word.reason, HasSubstr("drive, turn, stop"));
   run.command(seconds(3), execute("c", "nav", "drive", {{"to", "there"}}));
   EXPECT_EQ(run.stage("c"), Stage::rejected);
   EXPECT_THAT(run.last_ack("c")->word.reason, HasSubstr("'x'"));

@@ -5,6 +5,7 @@ namespace roci::planner::utility_htn::checking {
 namespace {
 
 using temporal::seconds;
+using testing::AnyOf;
 using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -199,6 +200,46 @@ TEST(DamagedPlans, ASiteThatNothingLeadsToIsPassed) {
   mission.network.tasks[task::excavate].impacts.push_back(
       {lid, temporal::ImpactKind::assign, temporal::ImpactWhen::at_start, {0}});
   EXPECT_THAT(mission.faults(), IsEmpty()) << "tasks only shut it";
+}
+
+TEST(DamagedPlans, ATaskOfNoDurationAsksBeforeAndActsThen) {
+  SmallMission mission;
+  model::Task& uplink = mission.network.tasks[task::uplink];
+  using temporal::timelines::Phase;
+  uplink.duration = {};
+  uplink.impacts = {{timeline::phase, temporal::ImpactKind::assign, temporal::ImpactWhen::at_end, {0}}};
+  uplink.constraints = {{.timeline = timeline::phase, .phase = Phase::pre, .states = 2},
+                        {.timeline = timeline::phase, .phase = Phase::post, .states = 1}};
+  EXPECT_THAT(mission.faults(), IsEmpty());
+  uplink.constraints[0].states = 1;
+  EXPECT_THAT(mission.faults(), Contains(HasSubstr("its precondition on 'phase' is broken")));
+  uplink.constraints = {{.timeline = timeline::phase, .phase = Phase::post, .states = 2}};
+  EXPECT_THAT(mission.faults(), Contains(HasSubstr("its postcondition on 'phase' is broken")));
+}
+
+// Two downlinks of 10 s at 2 W.
+TEST(DamagedPlans, DownlinksKeepTheirLimitsOfEnergy) {
+  SmallMission mission;
+  mission.network.parameters = {{"rate_bytes_per_s", 100}, {"downlink_limit_j", 25}, {"sol_limit_j", 45}};
+  mission.network.tasks[task::downlink].impacts.push_back(
+      {timeline::battery, temporal::ImpactKind::rate, temporal::ImpactWhen::during, {.constant = -2}});
+  const auto faults = [&](double one, double sol) {
+    mission.values = {100, one, sol};
+    return mission.faults();
+  };
+  EXPECT_THAT(faults(25, 45), IsEmpty());
+  EXPECT_THAT(faults(15, 45), Contains(HasSubstr("J of the 15 J that one may")));
+  EXPECT_THAT(faults(25, 35), Contains(HasSubstr("take 40 J of the 35 J that they may")));
+  mission.network.parameters.push_back({"sol_s", 200});
+  mission.values = {100, 25, 35, 200};
+  EXPECT_THAT(mission.faults(), IsEmpty()) << "each has a sol of its own";
+  mission.network.parameters.pop_back();
+  for (const std::uint64_t first : {10U, 14U}) mission.step(first).committed = true;
+  const auto of_limits = AnyOf(HasSubstr("that one may"), HasSubstr("that they may"));
+  EXPECT_THAT(faults(15, 35), Not(Contains(of_limits))) << "what has begun goes on as the network says";
+  mission.step(16).duration = seconds(13);
+  EXPECT_THAT(faults(25, 60), Contains(HasSubstr("takes 26 J of the 25 J that one may")));
+  EXPECT_THAT(faults(30, 45), Contains(HasSubstr("take 46 J of the 45 J that they may")));
 }
 
 TEST(DamagedPlans, WhatWasExecutedKeepsItsRealTimes) {

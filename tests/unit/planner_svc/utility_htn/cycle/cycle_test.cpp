@@ -202,8 +202,9 @@ TEST_F(CycleTest, LessEnergyThanForeseenMakesRoomForTheBetterOne) {
   cycle.run(Time{0});
   ASSERT_THAT(requests(cycle), ElementsAre("idle", "sample", "view"));
   cycle.observe(testing::kBattery, 5s, 500);  // 350 J for the sample, 150 J for the view, 300 J for idling
-  cycle.run(10s);
+  const Report report = cycle.run(10s);
   EXPECT_THAT(requests(cycle), Contains("sample"));
+  EXPECT_THAT(report.notes, Contains(HasSubstr("'view/plain' is not planned, since it costs 150 of 'battery'")));
   EXPECT_THAT(cycle.timelines().conflicts(40s, temporal::no_bound), IsEmpty());
 }
 
@@ -300,6 +301,12 @@ TEST_F(CycleTest, WhereTheBudgetDoesNotLastTheMissionEndsBefore) {
     if (!one.begun()) {
       EXPECT_LE(one.links.back().end, end);
     }
+  // It was said to end there, and does not.
+  for (Time now = start + 20s; now < end + 60s; now += 10s) cycle.run(now);
+  EXPECT_GT(block_of_request(cycle, "idle").links.front().end, end + 50s);
+  EXPECT_NO_THROW(cycle.ended(task_id(load.number, 0), end + 60s, true));
+  cycle.run(end + 60s);
+  EXPECT_THAT(cycle.past().done, Contains(chains_.chains[load.chain].task));
 }
 
 // What was left for being there is planned with in the same way when that end has come: half of it, and so on.

@@ -100,6 +100,28 @@ TEST_F(DeliveryTest, ResidualDataAreNoReasonNotToPlan) {
   EXPECT_THAT(plan.left_out.front().why, Not(IsEmpty()));
 }
 
+// 200 bytes in 20 s. What was sent has left the store and taken its time all the same.
+TEST_F(DeliveryTest, ADownlinkThatRunsHasOnlyWhatIsLeftOfItsTime) {
+  task("dig").products.clear();
+  start();
+  delivery_->hear(stored("first", Tier::mandatory, 120));
+  delivery_->hear(stored("second", Tier::mandatory, 80));
+  planned();
+  const search::PlannedData all = cycle_->data();
+  search::PlannedData one{{}, {all.downlinks.front()}, 0, 0};
+  const Time begun = one.downlinks.front().start;
+  const auto sent = [&](Time now) {
+    return delivery_->schedule(one, cycle_->past().values, now).downlinks.front().products;
+  };
+  EXPECT_THAT(sent(begun), ElementsAre("first", "second"));
+  EXPECT_THAT(sent(begun + 10s), ElementsAre("first", "second")) << "it is in the middle of the first";
+  Existing first = stored("first", Tier::mandatory, 120);
+  first.fate = Fate::sent;
+  delivery_->hear(first, begun + 12s);
+  delivery_->hear(stored("more", Tier::mandatory, 120));
+  EXPECT_THAT(sent(begun + 13s), ElementsAre("second"));
+}
+
 TEST_F(DeliveryTest, TiersGoInTheirOrderWhenThereIsTooLittleRoom) {
   network_.parameters.back().prior = 5;  // 100 bytes in each of the two downlinks
   task("dig").products.clear();
@@ -178,6 +200,97 @@ TEST_F(DeliveryTest, ADownlinkLastsAsLongAsTheDataThatAreThere) {
   delivery_->hear(orphan);
   cycle_->run(40s);
   EXPECT_EQ(sending().end - sending().start, 20s);
+}
+
+// `sample` has begun, and more waits for its downlink than the 20 s of the network carry.
+class LongSessions : public DeliveryTest {
+ protected:
+  void begin() {
+    start();
+    cycle_->run(Time{0});
+    cycle_->run(10s);
+  }
+  void wait_for_it(std::uint64_t bytes) {
+    Existing trench = stored("trench", Tier::mandatory, bytes);
+    trench.request = task_named(network_, "sample");
+    delivery_->hear(trench);
+    cycle_->doubt();
+  }
+  temporal::Duration session() const {
+    for (const cycle::Block& one : cycle_->blocks())
+      if (chains_.chains[one.chain].task == task_named(network_, "sample"))
+        return one.links.back().end - one.links.back().start;
+    throw std::logic_error("no sample is planned");
+  }
+};
+
+TEST_F(LongSessions, EndBeforeSomethingFixedThatNeedsTheSame) {
+  const model::Impact takes{testing::kArm, temporal::ImpactKind::delta, temporal::ImpactWhen::during, {1}};
+  task("send_sample").impacts.push_back(takes);
+  model::Task uplink;
+  uplink.id = uplink.name = "uplink";
+  uplink.fixed = true;
+  uplink.preferred_start = 230s;
+  uplink.duration = {10};
+  uplink.impacts = {takes};
+  network_.tasks.push_back(uplink);
+  begin();
+  wait_for_it(600);
+  EXPECT_THAT(planned(20s), Contains("uplink"));
+  EXPECT_EQ(session(), 50s) << "60 s would run into the uplink";
+}
+
+TEST_F(LongSessions, AreNoLongerThanTheLimitOfADownlinkPermits) {
+  add_parameter("downlink_limit_j", 120);
+  begin();
+  wait_for_it(600);
+  cycle_->run(20s);
+  EXPECT_EQ(session(), 24s) << "120 J at 5 W";
+}
+
+TEST_F(LongSessions, AreNoLongerThanTheLimitOfTheirSolPermitsBesideOthers) {
+  add_parameter("sol_limit_j", 250);
+  begin();
+  wait_for_it(600);
+  EXPECT_THAT(planned(20s), Contains("view"));
+  EXPECT_EQ(session(), 30s) << "the other one takes 100 J";
+}
+
+TEST_F(LongSessions, TakeTheirRealTimeFromTheirSol) {
+  add_parameter("sol_limit_j", 350);
+  task("idle").impacts.clear();  // there is energy enough
+  begin();
+  cycle_->withdraw(task_named(network_, "view"));
+  wait_for_it(600);
+  cycle_->run(20s);
+  ASSERT_EQ(session(), 60s);
+  cycle_->request(task_named(network_, "view"));
+  EXPECT_THAT(planned(30s), Not(Contains("view"))) << "50 J are left of the sol";
+}
+
+// What is late moves to a sol in which another downlink is planned.
+TEST_F(LongSessions, GiveWayWhereTheirSolIsOverdrawn) {
+  add_parameter("sol_limit_j", 150);
+  add_parameter("sol_s", 200);
+  task("idle").impacts.clear();
+  task("view").decompositions.front().subtasks.erase(task("view").decompositions.front().subtasks.begin());
+  task("view").opens = 205s;
+  begin();
+  ASSERT_THAT(planned(20s), Contains("view"));
+  const cycle::Block& sample =
+      *std::ranges::find(cycle_->blocks(), task_named(network_, "sample"),
+                         [&](const auto& one) { return chains_.chains[one.chain].task; });
+  const auto dig = cycle::task_id(sample.number, 0);
+  cycle_->begun(dig, sample.links.front().start);
+  cycle_->tried_again(dig, 90s);
+  for (const Time now : {90s, 100s}) {
+    cycle_->run(now);
+    std::map<std::int64_t, double> joules;
+    for (const search::PlannedDownlink& each : cycle_->data().downlinks)
+      joules[each.start / 200s] += 5 * temporal::to_seconds(each.end - each.start);
+    EXPECT_GT(joules[1], 0) << "the late one";
+    for (const auto& [sol, sum] : joules) EXPECT_LE(sum, 150) << "sol " << sol;
+  }
 }
 
 TEST_F(DeliveryTest, TheLimitOfADownlinkIsNeverExceeded) {

@@ -1,0 +1,114 @@
+#include "ground_console/cli/executed_table.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "ground_console/cli/table.hpp"
+#include "ground_console/lib/mission_view.hpp"
+
+namespace roci::console::cli {
+namespace {
+
+using nlohmann::json;
+
+constexpr int kDeepest = 20;  // of a hierarchy, whatever parents say
+
+const char* name_of(v1::ExecutedOutcome outcome) {
+  switch (outcome) {
+    case v1::EXECUTED_FINISHED:
+      return "finished";
+    case v1::EXECUTED_BROKEN:
+      return "broken";
+    case v1::EXECUTED_CANCELLED:
+      return "cancelled";
+    case v1::EXECUTED_REPLACED:
+      return "replaced";
+  }
+  return "unknown";
+}
+
+// Each with its depth: parts behind what they are parts of, both by their starts.
+using Ordered = std::vector<std::pair<const v1::ExecutedActivity*, int>>;
+
+void add(const std::map<std::string, std::vector<const v1::ExecutedActivity*>>& parts,
+         const std::string& parent, int depth, Ordered& out) {
+  const auto found = parts.find(parent);
+  if (found == parts.end() || depth > kDeepest) return;
+  for (const v1::ExecutedActivity* one : found->second) {
+    out.emplace_back(one, depth);
+    add(parts, one->id(), depth + 1, out);
+  }
+}
+
+Ordered ordered(const v1::ExecutedPlan& plan) {
+  std::map<std::string, std::vector<const v1::ExecutedActivity*>> parts;
+  std::map<std::string, bool> known;
+  for (const v1::ExecutedActivity& one : plan.activities()) known[one.id()] = true;
+  for (const v1::ExecutedActivity& one : plan.activities())
+    parts[known.contains(one.parent()) ? one.parent() : ""].push_back(&one);
+  for (auto& [parent, list] : parts)
+    std::ranges::stable_sort(list, {}, [](const v1::ExecutedActivity* one) {
+      return one->started_us() < 0 ? std::numeric_limits<std::int64_t>::max() : one->started_us();
+    });
+  Ordered out;
+  add(parts, "", 0, out);
+  return out;
+}
+
+std::string clock_or_blank(std::int64_t time_us) { return time_us < 0 ? "" : lib::clock_text(time_us); }
+
+std::string results_text(const v1::CommandResult& results) {
+  std::vector<std::string> words;
+  if (std::isfinite(results.energy_j())) words.push_back(lib::value_text(results.energy_j()) + " J");
+  for (const v1::NamedValue& value : results.measured())
+    words.push_back(value.name() + "=" + lib::value_text(value.held()));
+  return joined(words, " ");
+}
+
+}  // namespace
+
+std::string executed_table(const v1::ExecutedPlan& plan) {
+  std::vector<std::vector<std::string>> rows{
+      {"ACTIVITY", "WHAT", "STATE", "STARTED", "ENDED", "TRIES", "BROUGHT", "WHY"}};
+  for (const auto& [one, depth] : ordered(plan))
+    rows.push_back({std::string(2 * static_cast<std::size_t>(depth), ' ') + one->id(), one->name(),
+                    lib::name_of(one->state()), clock_or_blank(one->started_us()),
+                    clock_or_blank(one->ended_us()),
+                    one->attempts() == 0 ? "" : std::to_string(one->attempts()), results_text(one->results()),
+                    one->cause()});
+  return "plan " + std::to_string(plan.version()) + ", from " + lib::clock_text(plan.origin_us()) + ": " +
+         name_of(plan.outcome()) + (plan.reason().empty() ? "" : " (" + plan.reason() + ")") + "\n\n" +
+         table_text(rows);
+}
+
+json executed_json(const v1::ExecutedPlan& plan) {
+  json activities = json::array();
+  for (const auto& [one, depth] : ordered(plan)) {
+    json row{{"id", one->id()},
+             {"name", one->name()},
+             {"level", one->level()},
+             {"parent", one->parent()},
+             {"robot", one->robot()},
+             {"state", lib::name_of(one->state())},
+             {"attempts", one->attempts()},
+             {"cause", one->cause()}};
+    if (one->started_us() >= 0) row["started_s"] = static_cast<double>(one->started_us()) * 1e-6;
+    if (one->ended_us() >= 0) row["ended_s"] = static_cast<double>(one->ended_us()) * 1e-6;
+    if (std::isfinite(one->results().energy_j())) row["energy_j"] = one->results().energy_j();
+    for (const v1::NamedValue& value : one->results().measured())
+      row["values"][value.name()] = lib::value_text(value.held());
+    activities.push_back(std::move(row));
+  }
+  return {{"executive", plan.executive()},
+          {"version", plan.version()},
+          {"origin_s", static_cast<double>(plan.origin_us()) * 1e-6},
+          {"outcome", name_of(plan.outcome())},
+          {"reason", plan.reason()},
+          {"activities", activities}};
+}
+
+}  // namespace roci::console::cli

@@ -1,0 +1,157 @@
+#include "pathplan_svc/map_exchange_service.hpp"
+
+#include <utility>
+
+#include "services/node/make_event.hpp"
+
+namespace roci::pathplan {
+namespace {
+
+namespace owner = services::owner;
+namespace topics = services::topics;
+
+ObstacleKind kind_of(v1::ObstacleKind kind) {
+  return kind == v1::OBSTACLE_SOIL ? ObstacleKind::soil : ObstacleKind::rock;
+}
+
+FoundObstacle obstacle_of(const v1::TerrainFinding& in) {
+  return {in.robot(),
+          in.id(),
+          kind_of(in.obstacle_kind()),
+          {{in.x_m(), in.y_m()}, in.radius_m()},
+          in.cleared(),
+          temporal::Time{in.found_us()}};
+}
+
+FoundObstacle obstacle_of(const v1::MapObstacle& in) {
+  return {in.found_by(),
+          in.id(),
+          kind_of(in.obstacle_kind()),
+          {{in.x_m(), in.y_m()}, in.radius_m()},
+          in.cleared(),
+          temporal::Time{in.found_us()}};
+}
+
+v1::MapObstacle to_wire(const FoundObstacle& one) {
+  v1::MapObstacle out;
+  out.found_by(one.finder);
+  out.id(one.id);
+  out.obstacle_kind(one.kind == ObstacleKind::soil ? v1::OBSTACLE_SOIL : v1::OBSTACLE_ROCK);
+  out.x_m(one.disc.centre.x);
+  out.y_m(one.disc.centre.y);
+  out.radius_m(one.disc.radius);
+  out.cleared(one.cleared);
+  out.found_us(one.found.count());
+  return out;
+}
+
+}  // namespace
+
+MapExchange::MapExchange(services::Node& node, const MapSettings& settings, const terrain::Grid& grid,
+                         const std::map<std::string, std::string>& team, Host host)
+    : node_(node),
+      settings_(settings),
+      host_(std::move(host)),
+      map_(node.options().robot, grid, team),
+      events_(services::advertise(node, topics::event)) {
+  services::subscribe(node, topics::terrain_finding, [this](const v1::TerrainFinding& one) { hear(one); });
+  services::subscribe(node, topics::map_patch, [this](const v1::MapPatch& patch) { hear(patch); });
+  if (settings_.telling == Telling::never) return;
+  patches_ = services::advertise(node, topics::map_patch);
+  commands_.emplace(node, static_cast<owner::Driver&>(*this));
+}
+
+void MapExchange::hear(const v1::TerrainFinding& finding) {
+  const std::string& robot = node_.options().robot;
+  if (!robot.empty() && finding.robot() != robot) return;  // the world speaks for all robots
+  const std::string id = finding.id().substr(0, SharedMap::kNameBytes);
+  if (host_.busy())
+    return refuse("map.finding_refused", "finding " + id, finding.robot(),
+                  "it comes while the map is being built; send it again");
+  const Intake intake = map_.find(obstacle_of(finding));
+  if (!intake.refusal.empty())
+    return refuse("map.finding_refused", "finding " + id, finding.robot(), intake.refusal);
+  if (!intake.changed) return;
+  host_.changed();
+  if (settings_.telling == Telling::at_once) tell({});
+}
+
+void MapExchange::hear(const v1::MapPatch& patch) {
+  if (patch.header().sender() == node_.options().name) return;
+  MapPatch in{
+      patch.author(), patch.header().robot(), {patch.header().incarnation(), patch.header().seq()}, {}};
+  const std::string who = in.author.substr(0, SharedMap::kNameBytes);
+  const std::string what = "patch " + std::to_string(in.number.second) + " of " + who;
+  const auto refused = [&](const std::string& why) { refuse("map.patch_refused", what, who, why); };
+  if (patch.header().sender() != in.author) return refused("it comes from '" + patch.header().sender() + "'");
+  if (patch.obstacles().size() > SharedMap::kMost)
+    return refused("it holds more than " + std::to_string(SharedMap::kMost) + " obstacles");
+  if (host_.busy()) return refused("it comes while the map is being built; send it again");
+  for (const v1::MapObstacle& one : patch.obstacles()) in.obstacles.push_back(obstacle_of(one));
+  const Intake intake = map_.take(in);
+  if (!intake.refusal.empty()) return refused(intake.refusal);
+  if (!intake.changed) return;
+  report(
+      v1::SEVERITY_INFO, "map.patch_taken",
+      what + " brings the map of " + in.robot + " up to its version " + std::to_string(patch.map_version()),
+      {{"author", who}, {"map_version", std::to_string(patch.map_version())}});
+  host_.changed();
+}
+
+// What is told is what is known now; the version is that of the map with all of it.
+void MapExchange::tell(const std::function<void(std::uint64_t, std::size_t)>& told) {
+  v1::MapPatch patch;
+  patch.author(node_.options().name);
+  for (const FoundObstacle& one : map_.all()) patch.obstacles().push_back(to_wire(one));
+  host_.settled([this, patch = std::move(patch), told](std::uint64_t version) mutable {
+    const std::size_t count = patch.obstacles().size();
+    patch.map_version(version);
+    patches_->write(std::move(patch));
+    report(v1::SEVERITY_INFO, "map.told",
+           "the team is told of " + std::to_string(count) + " obstacles of the map's version " +
+               std::to_string(version),
+           {{"map_version", std::to_string(version)}, {"obstacles", std::to_string(count)}});
+    if (told) told(version, count);
+  });
+}
+
+void MapExchange::carry_out(const owner::Request& request) {
+  const owner::CommandKey key = request.key;
+  if (request.subsystem != settings_.subsystem || request.command != "tell") {
+    commands_->say(key,
+                   {owner::Stage::rejected,
+                    "unknown-command",
+                    "the path planner has '" + settings_.subsystem + "' with the command tell, and no '" +
+                        request.subsystem + "' with '" + request.command + "'",
+                    {}});
+    return;
+  }
+  commands_->say(key, {owner::Stage::accepted, "", "", {}});
+  tell([this, key](std::uint64_t version, std::size_t obstacles) {
+    owner::Word word{owner::Stage::completed, "", "", {}};
+    word.results.values = {{"map_version", static_cast<double>(version)},
+                           {"obstacles", static_cast<double>(obstacles)}};
+    commands_->say(key, std::move(word));
+  });
+}
+
+void MapExchange::break_off(const owner::CommandKey& key, const owner::Word&) {
+  commands_->refuse_cancel(key, "a map is told at once");
+}
+
+// Told the first time, the tenth, the hundredth and so on, by who it came from.
+void MapExchange::refuse(const std::string& code, const std::string& what, const std::string& who,
+                         const std::string& why) {
+  const std::uint64_t count = refusals_.note(code + " " + who);
+  if (count == 0) return;
+  report(v1::SEVERITY_WARNING, code,
+         what + ": " + why + (count > 1 ? " (" + std::to_string(count) + " refused so far)" : ""),
+         {{"from", who}});
+}
+
+void MapExchange::report(v1::Severity severity, const std::string& code, const std::string& text,
+                         const std::vector<std::pair<std::string, std::string>>& properties) {
+  events_.write(services::node::make_event(severity, code, text, properties));
+}
+
+}  // namespace roci::pathplan

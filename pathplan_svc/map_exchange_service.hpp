@@ -1,0 +1,59 @@
+// What a path planner hears of the terrain from its own robot and from the team, and what it tells the team.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "pathplan_svc/map_file.hpp"
+#include "pathplan_svc/shared_map.hpp"
+#include "services/bounds/tally.hpp"
+#include "services/owner/command_server.hpp"
+#include "services/publisher.hpp"
+
+namespace roci::pathplan {
+
+/// Keeps a robot's map beyond the loaded one up to date (topics `terrain_finding`, `map_patch`), and tells it when its settings
+/// or the command `tell` say so. It lives as long as its node's loop runs.
+class MapExchange final : private services::owner::Driver {
+ public:
+  /// What it needs of its service.
+  struct Host {
+    std::function<bool()> busy;     ///< whether the map can take no further change now
+    std::function<void()> changed;  ///< discs() are others than before
+    /// Calls back on the loop, when all changes so far are in the map, with its version then.
+    std::function<void(std::function<void(std::uint64_t version)>)> settled;
+  };
+
+  /// `team` says by service who belongs to which robot.
+  MapExchange(services::Node&, const MapSettings&, const terrain::Grid&,
+              const std::map<std::string, std::string>& team, Host);
+
+  std::vector<Disc> discs() const { return map_.discs(); }
+  std::vector<FoundObstacle> obstacles() const { return map_.all(); }
+
+ private:
+  void hear(const v1::TerrainFinding&);
+  void hear(const v1::MapPatch&);
+  void tell(const std::function<void(std::uint64_t version, std::size_t obstacles)>& told);
+  void refuse(const std::string& code, const std::string& what, const std::string& who,
+              const std::string& why);
+  void report(v1::Severity, const std::string& code, const std::string& text,
+              const std::vector<std::pair<std::string, std::string>>& properties);
+
+  void carry_out(const services::owner::Request&) override;
+  void break_off(const services::owner::CommandKey&, const services::owner::Word& why) override;
+
+  services::Node& node_;
+  const MapSettings settings_;
+  Host host_;
+  SharedMap map_;
+  services::bounds::Tally refusals_;
+  services::Publisher<v1::Event> events_;
+  std::optional<services::Publisher<v1::MapPatch>> patches_;  // of who tells
+  std::optional<services::owner::CommandServer> commands_;
+};
+
+}  // namespace roci::pathplan

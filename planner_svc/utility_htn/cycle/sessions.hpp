@@ -1,0 +1,36 @@
+// How long downlinks last: as long as the data take that are there, as far as the limits of energy permit (R111, R127).
+#pragma once
+
+#include <vector>
+
+#include "planner_svc/utility_htn/cycle/placement.hpp"
+#include "planner_svc/utility_htn/delivery/delivery.hpp"
+
+namespace roci::planner::utility_htn::cycle {
+
+/// Returns what all that is placed will generate and send, as planned or as it turned out so far; of downlinks those that have not ended.
+search::PlannedData data_of(const std::vector<Block>& blocks, const model::Network& network,
+                            const flattening::Chains& chains, const model::Values& values);
+
+/// Knows which downlink is the next one, since that also takes data whose own has gone without them.
+class Sessions {
+ public:
+  /// Both outlive this.
+  Sessions(const model::Network& network, const flattening::Chains& chains)
+      : network_(network), chains_(chains) {}
+
+  /// Looks anew for the next downlink of what has begun, where data wait on board.
+  void look(const std::vector<Block>& blocks, const delivery::Delivery& delivery);
+  /// Returns what a downlink takes. Of one that is committed that is what the executive was told. Of another one of what has begun it is what
+  /// the data take that wait for it, as far as its limit and that of its sol permit beside the other downlinks in `blocks`. It is never less
+  /// than the network says, which holds for what has not begun.
+  temporal::Duration length(const std::vector<Block>& blocks, const Block& of, std::size_t link,
+                            const delivery::Delivery& delivery, const model::Values& values) const;
+
+ private:
+  const model::Network& network_;
+  const flattening::Chains& chains_;
+  TaskId next_ = 0;
+};
+
+}  // namespace roci::planner::utility_htn::cycle

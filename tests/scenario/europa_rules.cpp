@@ -1,0 +1,215 @@
+#include "tests/scenario/europa_rules.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <vector>
+
+namespace roci::scenario {
+namespace {
+
+using ::testing::AllOf, ::testing::Each, ::testing::Ge, ::testing::IsEmpty, ::testing::Le;
+
+using Words = std::vector<std::string>;
+
+// Targets of each site by their looks (rsm1.yaml); how warm and cold each zone may be (mission.yaml).
+const std::map<char, std::string> kByLooks{{'0', "201"}, {'1', "012"}, {'2', "120"}};
+const std::map<std::string, std::pair<double, double>> kRanges{
+    {"lander.heat.arm", {110, 330}}, {"lander.heat.vault", {240, 350}}, {"lander.heat.antenna", {120, 400}}};
+const Words kAllInOrder{"1 0", "1 1", "1 2", "0 2", "0 0", "0 1", "2 1", "2 2", "2 0"};
+
+std::vector<double> numbers(const Words& words) {
+  std::vector<double> out;
+  for (const std::string& word : words) out.push_back(std::stod(word));
+  return out;
+}
+
+void check_limits(const std::filesystem::path& run_folder) {
+  const auto heat = observed(run_folder, "lander.heat.");
+  EXPECT_EQ(heat.size(), kRanges.size());
+  for (const auto& [zone, kelvins] : heat) {
+    const auto [coldest, warmest] = kRanges.at(zone);
+    EXPECT_THAT(numbers(kelvins), Each(AllOf(Ge(coldest), Le(warmest)))) << zone;
+  }
+  for (const auto& [timeline, joules] : observed(run_folder, "lander.battery"))
+    EXPECT_THAT(numbers(joules), Each(Ge(0)));
+}
+
+// A site that is begun goes on until a negative signature or its third sample, its targets by their looks (R112).
+void check_subway_map(const Course& course, const std::filesystem::path& run_folder) {
+  const auto signatures = observed(run_folder, "lander.signature.");
+  const Words samples = course.samples();
+  std::map<char, std::size_t> taken;
+  std::map<char, bool> negative;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const char site = samples[i][0], target = samples[i][2];
+    const auto begun = i > 0 ? samples[i - 1][0] : site;
+    EXPECT_TRUE(site == begun || negative[begun] || taken[begun] == 3)
+        << samples[i] << " though site " << begun << " was not finished";
+    EXPECT_FALSE(negative[site]) << samples[i] << " after a negative one of its site";
+    ASSERT_LT(taken[site], 3U) << samples[i];
+    EXPECT_EQ(kByLooks.at(site)[taken[site]++], target) << samples[i];
+    const auto known = signatures.find(std::string("lander.signature.") + site + "_" + target);
+    negative[site] = known != signatures.end() && known->second.back() == "negative";
+  }
+}
+
+// What the ground decides by goes with the next downlink in which data go at all (R110).
+void check_decisional_data(const Course& course) {
+  for (const Course::Product& product : course.products()) {
+    if (product.tier != "decisional") continue;
+    const auto is_next = [&](const Course::Deed& deed) {
+      return deed.kind == "send" && deed.at_s >= product.made_s;
+    };
+    const auto next = std::ranges::find_if(course.deeds(), is_next);
+    ASSERT_NE(next, course.deeds().end()) << product.id << " was made after the last downlink";
+    const auto goes = std::ranges::find(course.deeds(), product.id, &Course::Deed::object);
+    ASSERT_NE(goes, course.deeds().end()) << product.id << " was never sent";
+    EXPECT_EQ(goes->activity, next->activity) << product.id;
+  }
+}
+
+// A sample that was analyzed is on Earth: its summary, and its data in the form that was chosen.
+void check_samples(const Course& course) {
+  for (const std::string& sample : course.analyzed()) {
+    EXPECT_TRUE(course.is_home("summary_" + sample)) << sample;
+    EXPECT_TRUE(course.is_home("raw_" + sample) || course.is_home("compressed_" + sample)) << sample;
+  }
+  EXPECT_EQ(course.samples().size(), course.analyzed().size());
+}
+
+void expect_home(const Course& course, const std::string& tier) {
+  for (const Course::Product& product : course.products())
+    if (product.tier == tier) {
+      EXPECT_GE(product.received_s, 0) << product.id;
+    }
+}
+
+// Data taking ends early enough for all that it brings: what stays behind is residual.
+void expect_residual_left_behind(const Course& course) {
+  Words left;
+  for (const Course::Product& product : course.products()) {
+    if (product.received_s >= 0) continue;
+    EXPECT_EQ(product.tier, "residual") << product.id << " stayed behind";
+    left.push_back(product.id);
+  }
+  EXPECT_FALSE(left.empty()) << "nothing stayed behind";
+  for (const char* taking : {"collect", "analyze", "panorama", "start"})
+    EXPECT_LT(course.last(taking), course.last("send")) << taking;
+}
+
+void expect_in_order(const Course& course, const Words& order, std::size_t least) {
+  const Words samples = course.samples();
+  ASSERT_THAT(samples.size(), AllOf(Ge(least), Le(order.size())));
+  for (std::size_t i = 0; i < samples.size(); ++i) EXPECT_EQ(samples[i], order[i]);
+}
+
+// Within each downlink the tiers go in their order.
+void expect_tiers_in_order(const Course& course, double since_s) {
+  const Words tiers{"critical", "decisional", "mandatory", "residual"};
+  std::map<std::string, std::pair<std::ptrdiff_t, std::string>> sent;  // by downlink: tier and product
+  for (const Course::Deed& deed : course.deeds()) {
+    if (deed.kind != "downlink" || deed.at_s < since_s) continue;
+    const auto product = std::ranges::find(course.products(), deed.object, &Course::Product::id);
+    ASSERT_NE(product, course.products().end()) << deed.object;
+    const auto tier = std::ranges::find(tiers, product->tier) - tiers.begin();
+    const auto [before, first] = sent.try_emplace(deed.activity, tier, deed.object);
+    EXPECT_LE(before->second.first, tier) << deed.object << " after " << before->second.second;
+    before->second = {tier, deed.object};
+  }
+  EXPECT_FALSE(sent.empty());
+}
+
+using Rule = void (*)(const Course&);
+
+// Sites go by value: 1, 0, 2.
+const std::map<std::string, Rule> kRules{
+    {"nominal",
+     [](const Course& course) {
+       EXPECT_FALSE(course.samples().empty());
+       const auto [blocks, unreleased] = course.blocks_and_those_unreleased();
+       EXPECT_THAT(blocks, Ge(6));
+       EXPECT_EQ(unreleased, 0) << "fully_autonomous is no";
+     }},
+    {"autonomous",
+     [](const Course& course) {
+       EXPECT_EQ(course.samples(), (Words{"1 0", "0 2", "2 1"}));
+       EXPECT_THAT(course.blocks_and_those_unreleased().second, Ge(1)) << "no block waits for the ground";
+     }},
+    {"ground_lets_go",
+     [](const Course& course) {
+       EXPECT_EQ(course.samples(), (Words{"1 0", "0 2", "2 1"}));
+       EXPECT_THAT(course.blocks_and_those_unreleased().second, Ge(1)) << "no block waits any more";
+     }},
+    // R108.
+    {"basic",
+     [](const Course& course) {
+       EXPECT_EQ(course.sites(), Words{"0"});
+       EXPECT_THAT(course.samples(), ::testing::UnorderedElementsAre("0 0", "0 1", "0 2"));
+       EXPECT_THAT(course.objects("panorama").size(), Ge(5U)) << "one now and then";
+       EXPECT_THAT(course.objects("start").size(), Ge(5U)) << "days of seismometry";
+       EXPECT_THAT(course.objects("receive"), IsEmpty()) << "there is no ground";
+       EXPECT_TRUE(course.is_home("quakes"));
+     }},
+    // From the uplink on one target at each site, though each has a signature; the one before is the first at its site.
+    {"ground_one_target",
+     [](const Course& course) {
+       EXPECT_EQ(course.samples(), (Words{"1 0", "0 2", "2 1"}));
+     }},
+    {"all_positive", [](const Course& course) { expect_in_order(course, kAllInOrder, 7); }},
+    {"all_negative",
+     [](const Course& course) {
+       EXPECT_EQ(course.samples(), (Words{"1 0", "0 2", "2 1"}));
+     }},
+    {"first_negative",
+     [](const Course& course) {
+       expect_in_order(course, {"1 0", "0 2", "0 0", "0 1", "2 1", "2 2", "2 0"}, 6);
+     }},
+    {"low_start",
+     [](const Course& course) {
+       expect_in_order(course, kAllInOrder, 2);
+       expect_residual_left_behind(course);
+     }},
+    {"sudden_low",
+     [](const Course& course) {
+       expect_in_order(course, kAllInOrder, 1);
+       expect_residual_left_behind(course);
+     }},
+    // Site 1 was excavated when the order came, and nothing was sampled there.
+    {"ground_reorders",
+     [](const Course& course) {
+       EXPECT_EQ(course.sites(), (Words{"1", "2", "0"})) << "what was begun is finished";
+       EXPECT_EQ(course.samples(), (Words{"2 1", "1 0", "0 2"})) << "the new order counts";
+     }},
+    {"more_decisional",
+     [](const Course& course) {
+       expect_in_order(course, kAllInOrder, 1);
+       expect_home(course, "decisional");
+     }},
+    {"more_mandatory",
+     [](const Course& course) {
+       expect_in_order(course, kAllInOrder, 1);
+       expect_home(course, "mandatory");
+     }},
+    {"comm_energy_35", [](const Course& course) { expect_in_order(course, kAllInOrder, 7); }},
+    {"cold_85K", [](const Course& course) { expect_in_order(course, kAllInOrder, 5); }},
+    {"slow_downlink",
+     [](const Course& course) {
+       expect_in_order(course, kAllInOrder, 3);
+       expect_tiers_in_order(course, 190000);
+     }},
+};
+
+}  // namespace
+
+void check_rules(const std::string& scenario, const Course& course, const std::filesystem::path& run_folder) {
+  check_limits(run_folder);
+  if (scenario != "basic") check_subway_map(course, run_folder);  // Basic Surface Mission 1 has none
+  check_decisional_data(course);
+  check_samples(course);
+  kRules.at(scenario)(course);
+}
+
+}  // namespace roci::scenario

@@ -1,0 +1,82 @@
+// The yard of missions/faster, flown by commands alone: the world and both path planners as services, and a driver that
+// commands one after the other.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/terrain/grid.hpp"
+#include "services/publisher.hpp"
+#include "services/rpc.hpp"
+#include "services/service.hpp"
+#include "tests/unit/services/sim_run.hpp"
+
+namespace roci::scenario {
+
+struct YardCommand {
+  std::string owner;  // service
+  std::string robot;
+  std::string subsystem;
+  std::string command;
+  std::map<std::string, std::string> arguments;
+};
+
+/// Asks the path planner of the robot for the way from one place to another; its word has the way, or the code no-path.
+YardCommand path(const std::string& robot, terrain::Point from, terrain::Point to);
+YardCommand drive(const std::string& robot, double x, double y);
+YardCommand turn(const std::string& robot, double x, double y);
+YardCommand localise();
+/// The path planner of the robot tells its map.
+YardCommand tell(const std::string& robot);
+
+struct YardWord {
+  v1::CommandStage stage = v1::STAGE_UNKNOWN;
+  std::string code;
+  std::string reason;
+  std::map<std::string, double> results;
+  std::vector<terrain::Point> way;  ///< of a path
+};
+
+class Yard {
+ public:
+  /// Chooses the next command by the words on those before; nothing: the flight is over.
+  using Script = std::function<std::optional<YardCommand>(const std::vector<YardWord>&)>;
+
+  /// `vendors` are those of sim_svc, primary.path, scout.path and the driver, one after the other.
+  Yard(const std::string& scenario, std::vector<std::string> vendors, Script script, std::uint64_t seed = 1);
+  ~Yard();
+
+  void run();
+
+  const std::vector<YardWord>& words() const { return words_; }
+  /// "time sender code text" of each event, in the order in which they were heard.
+  const std::vector<std::string>& events() const { return events_; }
+  /// Times and words of all acknowledgements and events of the flight.
+  const std::vector<std::string>& trace() const { return trace_; }
+
+ private:
+  void next();
+  void ask(const YardCommand&);
+  void hear(const v1::CommandAck&);
+  void end(YardWord);
+
+  std::filesystem::path folder_;
+  std::vector<std::string> vendors_;
+  Script script_;
+  services::SimRun run_;
+  std::vector<std::unique_ptr<services::Service>> services_;
+  services::Node* driver_ = nullptr;
+  services::Publisher<v1::Command> commands_;
+  std::optional<services::Client<v1::PathRequest, v1::PathReply>> paths_;
+  services::Publisher<v1::MissionStatus> status_;
+  std::vector<YardWord> words_;
+  std::vector<std::string> events_;
+  std::vector<std::string> trace_;
+  std::string running_;
+};
+
+}  // namespace roci::scenario

@@ -1,0 +1,289 @@
+// Path planners of two robots under one clock: each with a map of its own, and what they tell each other of it.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "core/mission/entry.hpp"
+#include "pathplan_svc/pathplan_service.hpp"
+#include "services/link/link_table.hpp"
+#include "services/publisher.hpp"
+#include "services/rpc.hpp"
+#include "tests/unit/services/sim_run.hpp"
+
+namespace roci::pathplan {
+namespace {
+
+using namespace std::chrono_literals;
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
+namespace topics = services::topics;
+
+class MapExchange : public testing::Test {
+ protected:
+  MapExchange() {
+    std::filesystem::create_directories(folder_);
+    std::string rocks = "P2\n40 40\n255\n";
+    for (int i = 0; i < 40 * 40; ++i) rocks += "255 ";
+    std::ofstream(folder_ / "rocks.pgm") << rocks;
+    std::ofstream(folder_ / "site.yaml") << "image: rocks.pgm\nresolution: 1\norigin: [0, 0, 0]\nnegate: "
+                                            "0\noccupied_thresh: 0.65\nfree_thresh: 0.2\n";
+    std::ofstream(folder_ / "mission.yaml")
+        << "format: 1\nname: two\nrobots: [primary, scout]\nsite: site.yaml\nservices:\n"
+           "  - {name: world, program: sim_svc, clock: master}\n"
+           "  - {name: primary.path, program: pathplan_svc, robot: primary, settings: primary.yaml}\n"
+           "  - {name: scout.path, program: pathplan_svc, robot: scout, settings: scout.yaml}\n";
+    std::ofstream(folder_ / "primary.yaml")
+        << "format: 1\nname: two\nbase: mission.yaml\nrover: {radius_m: 0.8}\nmap: {tell: on_request}\n";
+    std::ofstream(folder_ / "scout.yaml")
+        << "format: 1\nname: two\nbase: mission.yaml\nrover: {radius_m: 0.4}\nmap: {tell: at_once}\n";
+    run_.robots = {{"primary.path", "primary"}, {"scout.path", "scout"}, {"stranger", "scout"}};
+    services::subscribe(world_, topics::event, [this](const v1::Event& event) {
+      events_.push_back(event.header().sender() + " " + event.code());
+      texts_.push_back(event.text());
+    });
+    services::subscribe(world_, topics::map_patch,
+                        [this](const v1::MapPatch& patch) { patches_.push_back(patch); });
+    services::subscribe(world_, topics::command_ack,
+                        [this](const v1::CommandAck& ack) { acks_.push_back(ack); });
+    services::subscribe(world_, topics::function_offer, [this](const v1::FunctionOffer& offer) {
+      versions_[offer.owner()] = offer.model_version();
+    });
+  }
+  ~MapExchange() override { std::filesystem::remove_all(folder_); }
+
+  void start(const std::vector<std::string>& who = {"primary.path", "scout.path"}) {
+    for (const std::string& name : who) {
+      services::RunSettings settings;
+      settings.mission = folder_;
+      settings.settings = folder_ / (name.substr(0, name.find('.')) + ".yaml");
+      settings.run_folder = folder_;
+      services_.push_back(make_service(run_.add(name), settings));
+    }
+  }
+  void run(temporal::Duration end) {
+    world_.after(end, [this] { world_.stop(); });
+    run_.run();
+  }
+
+  void find(temporal::Duration when, const std::string& robot, const std::string& id, double x, double y,
+            double radius = 2, bool cleared = false) {
+    world_.after(when, [=, this] {
+      v1::TerrainFinding out;
+      out.robot(robot);
+      out.id(id);
+      out.obstacle_kind(v1::OBSTACLE_SOIL);
+      out.x_m(x);
+      out.y_m(y);
+      out.radius_m(radius);
+      out.cleared(cleared);
+      out.found_us(when.count());
+      findings_.write(out);
+    });
+  }
+  void command(temporal::Duration when, const std::string& owner, const std::string& subsystem,
+               const std::string& name, const std::string& activity) {
+    world_.after(when, [=, this] {
+      v1::Command out;
+      out.commander("exec");
+      out.epoch(1);
+      out.sender_epoch(1);
+      out.activity(activity);
+      out.attempt(1);
+      out.owner(owner);
+      out.subsystem(subsystem);
+      out.command_name(name);
+      out.latest_end_us(-1);
+      commands_.write(out);
+    });
+  }
+  void ask(temporal::Duration when, const std::string& whom) {
+    world_.after(when, [=, this] {
+      v1::PathRequest request;
+      request.origin().x_m(5);
+      request.origin().y_m(20);
+      request.goal_pose().x_m(35);
+      request.goal_pose().y_m(20);
+      paths_.call(request, whom, 1s, [this, whom](const services::CallResult<v1::PathReply>& result) {
+        ASSERT_EQ(result.status, services::rpc::CallStatus::ok) << result.reason;
+        replies_[whom].push_back(result.reply);
+      });
+    });
+  }
+  // How near a path comes to a point.
+  static double gap(const v1::PathReply& path, double x, double y) {
+    double least = INFINITY;
+    for (const auto& p : path.waypoints()) least = std::min(least, std::hypot(p.x_m() - x, p.y_m() - y));
+    return least;
+  }
+
+  const std::filesystem::path folder_ =
+      std::filesystem::temp_directory_path() / ("roci_exchange_" + std::to_string(::getpid()));
+  services::SimRun run_{{"world", "primary.path", "scout.path"}};
+  services::Node& world_ = run_.add("world");
+  services::Publisher<v1::TerrainFinding> findings_ = services::advertise(world_, topics::terrain_finding);
+  services::Publisher<v1::MapPatch> forged_ = services::advertise(world_, topics::map_patch);
+  services::Publisher<v1::Command> commands_ = services::advertise(world_, topics::command);
+  services::Client<v1::PathRequest, v1::PathReply> paths_{world_, topics::path_request};
+  std::vector<std::unique_ptr<services::Service>> services_;
+  std::vector<std::string> events_, texts_;
+  std::vector<v1::MapPatch> patches_;
+  std::vector<v1::CommandAck> acks_;
+  std::map<std::string, std::uint64_t> versions_;
+  std::map<std::string, std::vector<v1::PathReply>> replies_;
+};
+
+TEST_F(MapExchange, AFindingIsOnTheFindersMapAndByItsPatchOnTheOthers) {
+  start();
+  ask(1s, "primary.path");
+  find(2s, "scout", "scout-soil-1", 20, 20);
+  ask(3s, "primary.path");
+  ask(3s, "scout.path");
+  run(4s);
+  ASSERT_EQ(replies_["primary.path"].size(), 2U);
+  EXPECT_EQ(replies_["primary.path"][0].map_version(), 1U);
+  EXPECT_LT(gap(replies_["primary.path"][0], 20, 20), 2);
+  EXPECT_EQ(replies_["primary.path"][1].map_version(), 2U);
+  EXPECT_GE(gap(replies_["primary.path"][1], 20, 20), 2.8) << "its own radius counts";
+  EXPECT_GE(gap(replies_["scout.path"][0], 20, 20), 2.4);
+  ASSERT_EQ(patches_.size(), 1U);
+  EXPECT_EQ(patches_[0].author(), "scout.path");
+  EXPECT_EQ(patches_[0].map_version(), 2U);
+  ASSERT_EQ(patches_[0].obstacles().size(), 1U);
+  EXPECT_EQ(patches_[0].obstacles()[0].found_by(), "scout");
+  EXPECT_THAT(events_, testing::IsSupersetOf({"scout.path map.told", "primary.path map.patch_taken",
+                                              "primary.path map.changed", "scout.path map.changed"}));
+}
+
+TEST_F(MapExchange, WhoTellsOnRequestKeepsItToItselfUntilThen) {
+  start();
+  find(1s, "primary", "primary-soil-1", 20, 20);
+  ask(2s, "scout.path");
+  command(3s, "primary.path", "map", "tell", "a1");
+  ask(4s, "scout.path");
+  run(5s);
+  ASSERT_EQ(replies_["scout.path"].size(), 2U);
+  EXPECT_LT(gap(replies_["scout.path"][0], 20, 20), 2) << "the scout does not know of it";
+  EXPECT_GE(gap(replies_["scout.path"][1], 20, 20), 2.4);
+  ASSERT_FALSE(acks_.empty());
+  const v1::CommandAck& last = acks_.back();
+  EXPECT_EQ(last.stage(), v1::STAGE_COMPLETED);
+  ASSERT_EQ(last.outcome().measured().size(), 2U);
+  EXPECT_EQ(last.outcome().measured()[0].name(), "map_version");
+  EXPECT_EQ(last.outcome().measured()[0].held().number(), 2);
+  EXPECT_EQ(last.outcome().measured()[1].held().number(), 1);
+}
+
+TEST_F(MapExchange, OtherCommandsAreRejectedWithTheRemedy) {
+  start();
+  command(1s, "primary.path", "wheels", "drive", "a1");
+  run(2s);
+  ASSERT_EQ(acks_.size(), 1U);
+  EXPECT_EQ(acks_[0].stage(), v1::STAGE_REJECTED);
+  EXPECT_EQ(acks_[0].code(), "unknown-command");
+  EXPECT_THAT(acks_[0].reason(), HasSubstr("has 'map' with the command tell"));
+}
+
+// The merged map of one robot is what it tells: also what a third has found.
+TEST_F(MapExchange, AMapIsToldWithWhatOthersHaveFound) {
+  start();
+  find(1s, "scout", "scout-soil-1", 20, 20);
+  find(2s, "primary", "primary-soil-1", 10, 10, 1);
+  command(3s, "primary.path", "map", "tell", "a1");
+  run(4s);
+  ASSERT_EQ(patches_.size(), 2U);
+  ASSERT_EQ(patches_[1].obstacles().size(), 2U);
+  EXPECT_EQ(patches_[1].obstacles()[0].found_by(), "primary");
+  EXPECT_EQ(patches_[1].obstacles()[1].found_by(), "scout");
+  EXPECT_EQ(versions_["scout.path"], 3U) << "its own finding and the primary's: two changes of cells";
+}
+
+TEST_F(MapExchange, WhatHasGoneGoesFromAllMaps) {
+  start();
+  find(1s, "scout", "scout-soil-1", 20, 20);
+  find(2s, "scout", "scout-soil-1", 20, 20, 2, true);
+  ask(3s, "primary.path");
+  run(4s);
+  EXPECT_LT(gap(replies_["primary.path"][0], 20, 20), 2);
+  EXPECT_EQ(replies_["primary.path"][0].map_version(), 3U);
+}
+
+TEST_F(MapExchange, APatchOfNobodyOffTheMapOrNotFiniteIsRefusedAndNamedAndTheMissionGoesOn) {
+  start();
+  const auto forge = [this](temporal::Duration when, const std::string& author, double x) {
+    world_.after(when, [=, this] {
+      v1::MapPatch out;
+      out.author(author);
+      v1::MapObstacle one;
+      one.found_by("scout");
+      one.id("a");
+      one.x_m(x);
+      one.y_m(20);
+      one.radius_m(2);
+      out.obstacles({one});
+      forged_.write(out);
+    });
+  };
+  forge(1s, "nobody", 20);
+  forge(2s, "scout.path", 20);  // not sent by that one
+  forge(3s, "world", 20);       // of no robot
+  find(4s, "scout", "off", 99, 20);
+  find(5s, "scout", "nan", std::nan(""), 20);
+  ask(6s, "primary.path");
+  ask(6s, "scout.path");
+  run(7s);
+  EXPECT_THAT(events_, Contains("primary.path map.patch_refused").Times(3)) << "once for each author";
+  EXPECT_THAT(events_, Contains("scout.path map.patch_refused"));
+  EXPECT_THAT(events_, Contains("scout.path map.finding_refused"));
+  EXPECT_THAT(events_, Not(Contains("primary.path map.finding_refused"))) << "whom it does not concern";
+  EXPECT_EQ(replies_["primary.path"].at(0).map_version(), 1U);
+  EXPECT_EQ(replies_["scout.path"].at(0).map_version(), 1U);
+}
+
+TEST_F(MapExchange, WhatItKnowsStandsInTheRunFolder) {
+  start();
+  find(1s, "scout", "scout-soil-1", 20, 20);
+  run(2s);
+  for (const std::string name : {"primary.path", "scout.path"}) {
+    std::ostringstream text;
+    text << std::ifstream(folder_ / (name + ".hazards")).rdbuf();
+    EXPECT_THAT(text.str(), HasSubstr("scout-soil-1")) << name;
+  }
+}
+
+// The radio between the rovers: a patch comes late, and a lost one is repeated until it arrives.
+TEST_F(MapExchange, APatchPassesTheLinkBetweenTheRobots) {
+  services::link::Link radio;
+  radio.name = "radio";
+  radio.ends = {"primary", "scout"};
+  radio.light_time = 2s;
+  radio.loss = 0.5;
+  run_.links = services::link::LinkTable({radio}, {{"primary.path", "primary"}, {"scout.path", "scout"}}, 1);
+  start();
+  find(1s, "scout", "scout-soil-1", 20, 20);
+  ask(2500ms, "primary.path");
+  ask(60s, "primary.path");
+  run(61s);
+  ASSERT_EQ(replies_["primary.path"].size(), 2U);
+  EXPECT_EQ(replies_["primary.path"][0].map_version(), 1U) << "it is under way";
+  EXPECT_EQ(replies_["primary.path"][1].map_version(), 2U);
+}
+
+TEST_F(MapExchange, OnlyThePlannerOfARobotMayTell) {
+  run_.robots.clear();
+  try {
+    start({"scout.path"});
+    FAIL();
+  } catch (const mission::FileError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("scout.yaml:"));
+    EXPECT_THAT(error.what(), HasSubstr("only the path planner of a robot tells of its map"));
+  }
+}
+
+}  // namespace
+}  // namespace roci::pathplan
