@@ -113,7 +113,7 @@ std::optional<Model> model_of(const engine::Request& request, std::vector<std::s
   std::vector<reading::Text> texts{{"model", request.model}};
   if (!request.problem_text.empty()) texts.push_back({"problem", request.problem_text});
   mission::Findings findings;
-  auto model = reading::parse_model(texts, findings);
+  auto model = reading::parse_model(texts, findings, reading::Problem::of_a_request);
   if (!model) {
     out.push_back(reading::errors_of(findings));
     return std::nullopt;
