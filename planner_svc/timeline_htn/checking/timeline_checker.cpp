@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "planner_svc/timeline_htn/checking/check.hpp"
+#include "planner_svc/timeline_htn/model/check.hpp"
 #include "planner_svc/timeline_htn/reading/load.hpp"
 
 namespace roci::planner::timeline_htn::checking {
@@ -113,7 +114,7 @@ std::optional<Model> model_of(const engine::Request& request, std::vector<std::s
   std::vector<reading::Text> texts{{"model", request.model}};
   if (!request.problem_text.empty()) texts.push_back({"problem", request.problem_text});
   mission::Findings findings;
-  auto model = reading::parse_model(texts, findings);
+  auto model = reading::parse_model(texts, findings, reading::Problem::of_a_request);
   if (!model) {
     out.push_back(reading::errors_of(findings));
     return std::nullopt;
@@ -130,6 +131,9 @@ std::optional<Model> model_of(const engine::Request& request, std::vector<std::s
   }
   put_states(request, *model, out);
   put_goals(request, *model, out);
+  if (out.empty())
+    for (const model::Fault& fault : model::check(*model))
+      if (!fault.warning) out.push_back(fault.what + "; " + fault.remedy);
   return out.empty() ? model : std::nullopt;
 }
 
