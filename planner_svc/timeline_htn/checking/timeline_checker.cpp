@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "planner_svc/timeline_htn/checking/check.hpp"
+#include "planner_svc/timeline_htn/model/check.hpp"
 #include "planner_svc/timeline_htn/reading/load.hpp"
 
 namespace roci::planner::timeline_htn::checking {
@@ -130,6 +131,9 @@ std::optional<Model> model_of(const engine::Request& request, std::vector<std::s
   }
   put_states(request, *model, out);
   put_goals(request, *model, out);
+  if (out.empty())
+    for (const model::Fault& fault : model::check(*model))
+      if (!fault.warning) out.push_back(fault.what + "; " + fault.remedy);
   return out.empty() ? model : std::nullopt;
 }
 

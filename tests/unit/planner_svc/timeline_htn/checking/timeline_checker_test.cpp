@@ -65,6 +65,19 @@ TEST(TimelineCheckerSeam, TakesStatesAndGoalsFromTheRequest) {
   EXPECT_THAT(faults_of(other, plan), Contains(HasSubstr("goal 'ground/basil'")));
 }
 
+TEST(TimelineCheckerSeam, TakesWhatIsObservedWhereTheModelSaysNothing) {
+  engine::Request seen = request();
+  const std::string initial = "base: at(dock), ";
+  seen.problem_text.erase(seen.problem_text.find(initial), initial.size());
+  std::vector<std::string> faults;
+  EXPECT_TRUE(model_of(seen, faults));
+  EXPECT_THAT(faults, IsEmpty());
+  seen.state.erase("base.nav");
+  EXPECT_FALSE(model_of(seen, faults));
+  EXPECT_THAT(faults,
+              Contains(HasSubstr("neither the request nor the model says in which state 'base' begins")));
+}
+
 TEST(TimelineCheckerSeam, SaysWhatItCannotCheckAgainst) {
   engine::Request bad = request();
   bad.goals[0].achieved =
