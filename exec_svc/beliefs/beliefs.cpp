@@ -1,6 +1,7 @@
 #include "exec_svc/beliefs/beliefs.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "exec_svc/mission/template_text.hpp"
 
@@ -53,11 +54,19 @@ Beliefs::Beliefs(const MissionModel& mission) : mission_(&mission) {
 }
 
 void Beliefs::observe(const std::string& timeline, temporal::Value value) {
+  concluded_.erase(timeline);
   values_.insert_or_assign(timeline, std::move(value));
 }
 
 void Beliefs::assume(const std::string& timeline, std::vector<std::string> facts) {
   assumed_.insert_or_assign(timeline, std::move(facts));
+}
+
+bool Beliefs::conclude(const std::string& timeline, const std::optional<temporal::Value>& value) {
+  if (values_.contains(timeline)) return false;
+  if (!value) return concluded_.erase(timeline) > 0;
+  const auto [entry, added] = concluded_.try_emplace(timeline, *value);
+  return added || std::exchange(entry->second, *value) != *value;
 }
 
 const temporal::Value* Beliefs::value(const std::string& timeline) const {

@@ -82,8 +82,11 @@ std::vector<std::string> goal_facts(const MissionModel& mission, const GoalReque
 bool is_achieved(const MissionModel& mission, const Beliefs& beliefs, const GoalRequest& goal) {
   const temporal::Condition condition = achieved(mission, goal);
   if (condition.empty()) return beliefs.holds(goal_facts(mission, goal));
-  return evaluate(condition, [&](const std::string& name) { return beliefs.lookup(name); }) ==
-         temporal::Truth::yes;
+  const auto lookup = [&](const std::string& name) {
+    const auto concluded = beliefs.concluded().find(name);
+    return concluded == beliefs.concluded().end() ? beliefs.lookup(name) : std::optional(concluded->second);
+  };
+  return evaluate(condition, lookup) == temporal::Truth::yes;
 }
 
 bool is_achieved(const MissionModel& mission, const Beliefs& beliefs, const GoalSet& goals,

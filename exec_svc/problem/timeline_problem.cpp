@@ -15,6 +15,7 @@ using temporal::Value;
 
 std::map<std::string, Value> state_at_origin(const Situation& situation) {
   std::map<std::string, Value> out = situation.beliefs.values();
+  out.insert(situation.beliefs.concluded().begin(), situation.beliefs.concluded().end());
   for (const auto& [timeline, value] : situation.forecast.values) out.insert_or_assign(timeline, value);
   for (const auto& [timeline, change] : situation.forecast.changes) {
     const auto known = out.find(timeline);

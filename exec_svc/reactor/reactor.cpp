@@ -146,7 +146,8 @@ std::string Reactor::snapshot() const {
   part_fields(writer, std::as_const(*parts_));
   std::vector<GoalRecord> goals;
   for (const GoalRecord* record : parts_->state.goals.all()) goals.push_back(*record);
-  writer(goals, parts_->state.beliefs.values(), parts_->state.beliefs.assumed(), parts_->plan.remaining());
+  writer(goals, parts_->state.beliefs.values(), parts_->state.beliefs.assumed(),
+         parts_->state.beliefs.concluded(), parts_->plan.remaining());
   parts_->policy->save(writer);
   return writer.take();
 }
@@ -155,10 +156,10 @@ void Reactor::restore(std::string_view snapshot) {
   archive::Reader reader(snapshot);
   part_fields(reader, *parts_);
   std::vector<GoalRecord> goals;
-  std::map<std::string, temporal::Value> values;
+  std::map<std::string, temporal::Value> values, concluded;
   std::map<std::string, std::vector<std::string>> assumed;
   std::vector<PlannedAction> remaining;
-  reader(goals, values, assumed, remaining);
+  reader(goals, values, assumed, concluded, remaining);
   parts_->policy->restore(reader);
   reader.finish();
   parts_->ground.reinstate();
@@ -171,6 +172,7 @@ void Reactor::restore(std::string_view snapshot) {
   }
   parts_->plan.restore_observations(observed);
   parts_->plan.keep_actions(std::move(remaining));
+  for (const auto& [timeline, value] : concluded) state.beliefs.conclude(timeline, value);
   for (auto& [timeline, facts] : assumed) state.beliefs.assume(timeline, std::move(facts));
 }
 

@@ -7,6 +7,7 @@
 
 #include "core/temporal/function_values.hpp"
 #include "core/temporal/schedule.hpp"
+#include "exec_svc/reactor/inputs.hpp"
 #include "exec_svc/reactor/recovery_policy.hpp"
 #include "exec_svc/reactor/relaunch.hpp"
 
@@ -78,14 +79,34 @@ void RunningPlan::step(Time now, const ReactorInputs& inputs) {
                    recovery.activity + ": " + recovery.reason);
   }
   for (const executive::CommandAck& ack : inputs.acks) record_.note(ack);
-  forward(std::move(done));
+  forward(std::move(done), now);
   close_record();
   if (!state_->out.steps.empty() && state_->phase == MissionPhase::executing) report_windows();
 }
 
-void RunningPlan::resume(Time now) { forward(executive_.resume(now)); }
+// An activity without a command is the only one that knows what it has made of a timeline. Each value counts, also one that the next
+// activity changes at the same time.
+void RunningPlan::conclude(const std::vector<StepStatus>& changes, Time now) {
+  for (const StepStatus& step : changes) {
+    const temporal::PlanActivity* const activity = executive_.activity(step.activity);
+    if (activity == nullptr || !activity->owner.empty() || !step.started) continue;
+    const bool succeeded = step.state == temporal::ActivityState::succeeded;
+    bool news = false;
+    for (const temporal::Impact& impact : activity->impacts) {
+      if (impact.kind != temporal::ImpactKind::assign) continue;
+      if (step.ended && !succeeded) {  // what lasted gives way to the value before it
+        news = state_->beliefs.conclude(impact.timeline, executive_.value_of(impact.timeline)) || news;
+      } else if ((impact.moment == temporal::ImpactWhen::at_end) == succeeded) {
+        news = state_->beliefs.conclude(impact.timeline, impact.amount) || news;
+      }
+    }
+    if (news) note_achieved(*state_, now);
+  }
+}
 
-void RunningPlan::cancel(Time now) { forward(executive_.cancel_all(now)); }
+void RunningPlan::resume(Time now) { forward(executive_.resume(now), now); }
+
+void RunningPlan::cancel(Time now) { forward(executive_.cancel_all(now), now); }
 
 std::string RunningPlan::load(temporal::FlexiblePlan plan, Time now) {
   const auto faults = executive_.load(plan, now);
@@ -187,7 +208,7 @@ void RunningPlan::begin(Time now) {
 
 void RunningPlan::unload(Time now) {
   executive_.load({}, now);
-  forward(executive_.step(now, {}));
+  forward(executive_.step(now, {}), now);
 }
 
 std::optional<ConflictAhead> RunningPlan::conflict_ahead(Time now) {
@@ -268,7 +289,8 @@ std::vector<Observation> RunningPlan::changed_conditions() {
   return out;
 }
 
-void RunningPlan::forward(Outputs done) {
+void RunningPlan::forward(Outputs done, Time now) {
+  conclude(done.changes, now);
   ReactorOutputs& out = state_->out;
   std::move(done.commands.begin(), done.commands.end(), std::back_inserter(out.commands));
   for (const StepStatus& step : done.changes) record_.note(step);

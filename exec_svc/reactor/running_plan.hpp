@@ -30,6 +30,7 @@ class RunningPlan {
 
   /// Tells the executive and the monitors what was observed and acknowledged, in every phase, so that cancels
   /// are answered and observations kept; forwards commands, steps and recoveries.
+  /// What it makes of timelines that nobody observes may achieve goals.
   void step(temporal::Time now, const ReactorInputs& inputs);
   /// Answers to decisions, which the plan hears in its next step.
   void give_answers(std::vector<executive::DecisionAnswer> answers) { answers_ = std::move(answers); }
@@ -103,11 +104,12 @@ class RunningPlan {
  private:
   void close(ExecutedOutcome outcome, std::string reason);
   void close_record();
+  void conclude(const std::vector<executive::StepStatus>& changes, temporal::Time now);
   void watch(const temporal::FlexiblePlan& plan, bool launched_again = false);
   std::vector<executive::Observation> changed_conditions();
   void tell_observed(const std::vector<executive::Observation>& observations, executive::Inputs& told) const;
   bool is_set_by_ground(const std::string& timeline) const;
-  void forward(executive::Outputs done);
+  void forward(executive::Outputs done, temporal::Time now);
   void report_windows();
 
   MissionState* state_;

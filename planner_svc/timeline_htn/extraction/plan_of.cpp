@@ -119,11 +119,13 @@ class Extraction {
     const auto add = [&](StateId state, temporal::ImpactWhen moment) {
       const auto& observed = ground_.definition(state).observed;
       if (observed)
-        out.impacts.push_back({observed->timeline, temporal::ImpactKind::assign, moment, observed_value(state)});
+        out.impacts.push_back(
+            {observed->timeline, temporal::ImpactKind::assign, moment, observed_value(state)});
     };
-    add(one.state, temporal::ImpactWhen::at_start);
+    add(one.state, temporal::ImpactWhen::during);  // gives way where the activity fails
     const StateId after = next_state(one.token);
-    if (after != kNone && ground_.at(after).kind == StateKind::resting) add(after, temporal::ImpactWhen::at_end);
+    if (after != kNone && ground_.at(after).kind == StateKind::resting)
+      add(after, temporal::ImpactWhen::at_end);
   }
 
   void fill_command(const model::Command& command, const model::GroundState& state, PlanActivity& out) const {

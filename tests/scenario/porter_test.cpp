@@ -1,0 +1,54 @@
+// A mission whose plans are hierarchical timelines (QuijoteExpress): no PDDL, no network of tasks. By the programs that users start.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <map>
+#include <string>
+
+#include "tests/scenario/flight.hpp"
+
+namespace roci::scenario {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::ElementsAre;
+
+class Porter : public ::testing::TestWithParam<const char*> {
+ protected:
+  ~Porter() override { fs::remove_all(folder_); }
+
+  // Each has the events that its scenario lists, and the same trace on every transport.
+  void expect_as_listed(const std::string& scenario) {
+    static std::map<std::string, std::string> traces;
+    const Flight flight = fly(ROCI_SOURCE_DIR "/tests/missions/porter", GetParam(), 1,
+                              "--scenario " + scenario + " --run-folder " + folder_.string());
+    EXPECT_EQ(flight.exit_code, 0) << flight.summary.dump();
+    EXPECT_EQ(flight.summary["expected"].value("fault", "no report"), "");
+    const std::string trace = flight.summary.value("trace_sha256", "");
+    EXPECT_EQ(traces.emplace(scenario, trace).first->second, trace);
+  }
+
+  const fs::path folder_ = fs::temp_directory_path() / ("roci_porter_" + std::to_string(::getpid()));
+};
+
+// A goal of the abstract layer counts when its state stands on the timeline that nobody but the executive knows (R135).
+TEST_P(Porter, BringsWhatIsAskedForInOnePlan) {
+  expect_as_listed("nominal");
+  EXPECT_THAT(deeds_of(folder_), ElementsAre("drive dock gate", "lift red", "drive gate dock", "set_down red",
+                                             "drive dock gate", "drive gate yard", "lift blue",
+                                             "drive yard gate", "drive gate dock", "set_down blue"));
+}
+
+TEST_P(Porter, PlansAnewFromWhereItStands) {
+  expect_as_listed("broken");
+  EXPECT_THAT(deeds_of(folder_), ElementsAre("drive dock gate", "lift red", "drive gate dock",
+                                             "drive gate dock", "set_down red"));
+}
+
+INSTANTIATE_TEST_SUITE_P(Transports, Porter, ::testing::Values("inproc", "fastdds", "cyclonedds", "mixed"),
+                         [](const auto& dds) { return std::string(dds.param); });
+
+}  // namespace
+}  // namespace roci::scenario
