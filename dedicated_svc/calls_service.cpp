@@ -38,6 +38,11 @@ const char* error_of(v1::MotionOutcome outcome) {
   }
 }
 
+Value awaited(const methods::ObserveCall& call) {
+  if (call.arguments.empty() && (call.state == "true" || call.state == "false")) return call.state == "true";
+  return temporal::state(call.state, call.arguments);
+}
+
 Answer answer_of(const Word& word) {
   Answer answer;
   answer.values = word.results.values;
@@ -139,7 +144,9 @@ void Calls::start(const methods::TransformCall& call) {
                 {"y", -std::sin(robot->heading) * dx + std::cos(robot->heading) * dy},
                 {"bearing_rad", std::remainder(heading - robot->heading, 2 * M_PI)},
                 {"range_m", std::hypot(dx, dy)},
-                {"heading_rad", heading}};
+                {"heading_rad", heading},
+                {"world_x", place->x},
+                {"world_y", place->y}};
   answer_soon(std::move(out));
 }
 
@@ -153,7 +160,7 @@ void Calls::look() {
   if (!call) return;
   const auto seen = observed_.find(call->timeline);
   if (seen == observed_.end()) return;
-  if (!call->state.empty() && seen->second != temporal::state(call->state, call->arguments)) return;
+  if (!call->state.empty() && seen->second != awaited(*call)) return;
   Answer out;
   if (std::holds_alternative<double>(seen->second)) out.values["value"] = seen->second;
   answer_soon(std::move(out));
@@ -212,7 +219,8 @@ std::optional<Spot> Calls::spot_of(const methods::Place& place) const {
     const auto x = number(place.robot + ".x"), y = number(place.robot + ".y");
     const auto heading = number(place.robot + ".heading");
     if (!x || !y || !heading) return {};
-    return Spot{*x, *y, *heading};
+    return Spot{*x + std::cos(*heading) * place.ahead_m - std::sin(*heading) * place.left_m,
+                *y + std::sin(*heading) * place.ahead_m + std::cos(*heading) * place.left_m, *heading};
   }
   const auto x = number_of(place.x), y = number_of(place.y);
   if (!x || !y) return {};

@@ -6,6 +6,7 @@ has no parameter for them."""
 
 from __future__ import annotations
 
+import math
 import re
 import statistics
 from dataclasses import replace
@@ -75,6 +76,7 @@ def knowing(scenario: Scenario, flight: Flight) -> Scenario:
     told = [(TOLD_S, name, value) for name, value in values.items()]
     for at, rate in scenario.rates or [(0, RATE_BYTE_S)]:
         told.append((max(at, TOLD_S), "rate_bytes_per_s", bounded(rate, 125, 100000)))
-        told += [(max(at, TOLD_S), name, bounded(count / rate, 600, 600000)) for name, count in DOWNLINK_BYTES.items()]
+        # Whole seconds, upwards: a downlink that is too short by a byte has no room for its own data.
+        told += [(max(at, TOLD_S), name, bounded(math.ceil(count / rate), 600, 600000)) for name, count in DOWNLINK_BYTES.items()]
     orders = [(at, f"parameter: {{issuer: ground, id: told-{i}, name: {name}, value: {value}}}") for i, (at, name, value) in enumerate(told, 1)]
     return replace(scenario, told=orders)

@@ -19,12 +19,14 @@ namespace roci::dedicated::methods {
 using Template = std::string;
 
 /// Names a place: an object of the mission with properties x and y, a robot (where it is observed to stand), or
-/// coordinates in metres; of the three one is given.
+/// coordinates in metres; of the three one is given. Of a robot it may lie so many metres ahead and to its left.
 struct Place {
   Template object{};
   Template robot{};
   Template x{};
   Template y{};
+  double ahead_m = 0;
+  double left_m = 0;
   bool operator==(const Place&) const = default;
 };
 
@@ -46,13 +48,14 @@ struct PathCall {
 };
 
 /// Tells a place in the frame of a robot: x (ahead) and y (to its left) in metres, bearing_rad (to its left), range_m and
-/// heading_rad, the world's heading from the robot to the place. Error: no-pose, as long as it was never observed.
+/// heading_rad, the world's heading from the robot to the place; world_x and world_y, where the place is. Error: no-pose, as long as it was never observed.
 struct TransformCall {
   Place place;
   Template robot;
 };
 
-/// Waits until a timeline has a value; a number is brought as `value`. A call without a state waits until there is any.
+/// Waits until a timeline has a value, a state or a boolean (true, false); a number is brought as `value`. A call without a
+/// state waits until there is any.
 struct ObserveCall {
   Template timeline;
   Template state{};

@@ -42,12 +42,18 @@ Template template_or_none(const Entry& entry, std::string_view key, const Known&
 }
 
 Place read_place(const Entry& entry, const Known& known) {
-  entry.allow_only({"object", "robot", "x", "y"});
-  Place place{template_or_none(entry, "object", known), template_or_none(entry, "robot", known),
-              template_or_none(entry, "x", known), template_or_none(entry, "y", known)};
+  entry.allow_only({"object", "robot", "x", "y", "ahead_m", "left_m"});
+  Place place{template_or_none(entry, "object", known),
+              template_or_none(entry, "robot", known),
+              template_or_none(entry, "x", known),
+              template_or_none(entry, "y", known),
+              entry.number_or("ahead_m", 0),
+              entry.number_or("left_m", 0)};
   const int ways = !place.object.empty() + !place.robot.empty() + (!place.x.empty() || !place.y.empty());
   if (ways != 1 || place.x.empty() != place.y.empty())
     entry.fail("a place is either 'object', or 'robot', or 'x' and 'y'");
+  if (place.robot.empty() && (place.ahead_m != 0 || place.left_m != 0))
+    entry.fail("'ahead_m' and 'left_m' are of a robot; name it by 'robot'");
   return place;
 }
 

@@ -93,7 +93,9 @@ void ContinuousPlanning::note_planned(const FlexiblePlan& plan) {
 }
 
 /// Where no goal is open any more the plan ends with the commands that run or are committed: what has none, as a load that is
-/// always on or a wait for the ground, would keep the mission open for as long as it was planned. Returns whether that is so.
+/// always on or a wait for the ground, would keep the mission open for as long as it was planned; and so would a command behind such a
+/// wait, or one that waits itself for what never comes, as of an empty battery: none is awaited for longer than a fallback after its
+/// planned start. Returns whether that is so.
 bool ContinuousPlanning::end_with_goals(Time now) {
   MissionState& state = parts_.state;
   if (state.goals.all().empty() || !state.goals.open().empty()) return false;
@@ -101,8 +103,12 @@ bool ContinuousPlanning::end_with_goals(Time now) {
   const auto is_to_come = [&](const StepStatus& step) {
     const temporal::PlanActivity& activity = *executive.activity(step.activity);
     const bool waits = step.state == temporal::ActivityState::waiting;
-    const bool will_start = activity.commit == temporal::CommitState::committed &&
+    const Time awaited_until =
+        temporal::plus(temporal::plus(executive.plan().origin, activity.preferred_start),
+                       state.mission->executive.fallback_timeout);
+    const bool will_start = activity.commit == temporal::CommitState::committed && now < awaited_until &&
                             executive.outcome().kind == OutcomeKind::running;
+    if (waits && will_start && temporal::bounded(awaited_until)) state.wake_at(awaited_until);
     return !activity.owner.empty() && !temporal::is_over(step.state) && (!waits || will_start);
   };
   if (std::ranges::any_of(executive.steps(), is_to_come)) return true;

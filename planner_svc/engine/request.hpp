@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <string>
@@ -89,6 +90,8 @@ struct Request {
   /// Evaluations that may be spent on better plans once there is one, beside `work`; 0: none. It is the mission's and not on
   /// the wire: whoever hosts the engine sets it.
   std::uint64_t improvement = kImprovement;
+  /// The file of the mission's model, beside which lies what it includes; empty: it is a text alone. Likewise the host's to say.
+  std::filesystem::path model_file{};
 };
 
 /// What may end a call early. Both functions may be called from any thread, and as often as every

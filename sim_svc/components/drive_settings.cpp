@@ -12,10 +12,11 @@ double above_zero(const Entry& section, std::string_view key, double fallback) {
 }
 
 SoilInstrument read_instrument(const Entry& entry) {
-  entry.allow_only({"name", "ahead_m", "every_m", "noise", "shears"});
+  entry.allow_only({"name", "ahead_m", "beside_m", "every_m", "noise", "shears"});
   SoilInstrument out;
   out.name = entry.at("name").text();
   out.ahead_m = entry.number_or("ahead_m", out.ahead_m);
+  out.beside_m = entry.number_or("beside_m", out.beside_m);
   out.every_m = above_zero(entry, "every_m", out.every_m);
   out.noise = setup::number(entry, "noise", out.noise);
   out.shears = entry.truth_or("shears", out.shears);

@@ -23,8 +23,9 @@ std::optional<NoGo> SoilSensor::sense(const world::Ground& ground, const world::
     const SoilInstrument& instrument = settings_.instruments[i];
     if (way_m_ < due_m_[i]) continue;
     due_m_[i] = (std::floor(way_m_ / instrument.every_m) + 1) * instrument.every_m;
-    const terrain::Point at{pose.x + instrument.ahead_m * std::cos(pose.heading),
-                            pose.y + instrument.ahead_m * std::sin(pose.heading)};
+    const double east = std::cos(pose.heading), north = std::sin(pose.heading);
+    const terrain::Point at{pose.x + instrument.ahead_m * east - instrument.beside_m * north,
+                            pose.y + instrument.ahead_m * north + instrument.beside_m * east};
     auto verdict = measure(instrument, ground, at);
     if (verdict && !first) first = std::move(verdict);
   }

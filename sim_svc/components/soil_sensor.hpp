@@ -14,6 +14,7 @@ namespace roci::sim::components {
 struct SoilInstrument {
   std::string name;
   double ahead_m = 0;    ///< of the body's centre, in the direction of travel
+  double beside_m = 0;   ///< to the left of it; negative: to the right
   double every_m = 0.1;  ///< of way it measures once, above 0
   double noise = 0.1;    ///< standard deviation, as a share of what it measures
   bool shears = true;    ///< it measures strength, too, and not only how the soil gives way

@@ -39,6 +39,14 @@ TEST(ArchitectureTest, EachRuleCanBeBroken) {
   EXPECT_THAT(
       broken(file("planner_svc/temporal_pddl/validate/a.cpp", "planner_svc/temporal_pddl/planner.hpp")),
       ElementsAre(HasSubstr("the validator shares only core/pddl")));
+  EXPECT_THAT(
+      broken(file("planner_svc/timeline_htn/checking/a.cpp", "planner_svc/timeline_htn/search/ground.hpp")),
+      ElementsAre(HasSubstr("the checker sees the model")));
+  EXPECT_THAT(
+      broken(file("planner_svc/timeline_htn/checking/a.cpp", "planner_svc/timeline_htn/model/model.hpp")),
+      IsEmpty());
+  EXPECT_THAT(broken(file("planner_svc/utility_htn/checking/a.cpp", "core/temporal/timelines/line.hpp")),
+              ElementsAre(HasSubstr("the checker sees the model")));
   EXPECT_THAT(broken(file("planner_svc/temporal_pddl/search/a.cpp", "core/pddl/ast.hpp")),
               ElementsAre(HasSubstr("never sees PDDL text")));
   EXPECT_THAT(broken(file("core/temporal/common/a.cpp", "vector")), ElementsAre(HasSubstr("has a name")));

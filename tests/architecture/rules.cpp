@@ -97,18 +97,20 @@ void check_libraries(const SourceFile& file, Complaints& out) {
   }
 }
 
-// The checker of the utility-driven engine shares the network with the planner, and nothing that computes.
+// The checkers of the engines that plan by hierarchies share the model with the search, and nothing that computes.
 void check_independent_checker(const SourceFile& file, Complaints& out) {
-  const std::string engine = "planner_svc/utility_htn/";
-  if (!file.under("planner_svc/utility_htn/checking")) return;
-  for (const std::string& include : file.includes) {
-    const bool allowed = !include.starts_with(engine) ||
-                         any_prefix(include, {engine + "model/", engine + "reading/", engine + "checking/"});
-    const bool computes = include.starts_with("core/temporal/timelines/") &&
-                          include != "core/temporal/timelines/definition.hpp";
-    if (!allowed || computes) {
-      out.push_back(file.path + ": includes " + include +
-                    "; the checker sees the network and how it is read alone");
+  for (const std::string engine : {"planner_svc/utility_htn/", "planner_svc/timeline_htn/"}) {
+    if (!file.under(engine + "checking")) continue;
+    for (const std::string& include : file.includes) {
+      const bool allowed =
+          !include.starts_with(engine) ||
+          any_prefix(include, {engine + "model/", engine + "reading/", engine + "checking/"});
+      const bool computes = include.starts_with("core/temporal/timelines/") &&
+                            include != "core/temporal/timelines/definition.hpp";
+      if (!allowed || computes) {
+        out.push_back(file.path + ": includes " + include +
+                      "; the checker sees the model and how it is read alone");
+      }
     }
   }
 }

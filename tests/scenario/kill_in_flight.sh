@@ -9,7 +9,9 @@ mkdir -m 700 "$run" && touch "$run/effects.jsonl"
 "$bin/roci-launch" "$mission" --dds "$dds" --headless --json --run-folder "$run" "$@" >"$run.summary" &
 launcher=$!
 timeout 60 tail -n +1 -f "$run/effects.jsonl" | grep -q -m1 "\"object\":\"$object\""
-kill -KILL "$(pgrep -f -P $launcher "$service")" && echo "killed $service"
+# By its program's name, else by a part of its command line: several services may run one program.
+process=$(pgrep -P $launcher "$service" || pgrep -f -P $launcher "$service")
+kill -KILL "$process" && echo "killed $service"
 wait $launcher
 tail -n 1 "$run.summary"
 rm -f "$run.summary"

@@ -18,6 +18,12 @@ std::string text_of_number(double value) {
   return out.str();
 }
 
+// Two yards at most stand at a time, and a transport has 232 domains.
+int domain() {
+  static int last = 0;
+  return 100 + ++last % 60;
+}
+
 }  // namespace
 
 YardCommand drive(const std::string& robot, double x, double y) {
@@ -26,6 +32,11 @@ YardCommand drive(const std::string& robot, double x, double y) {
           "nav",
           "drive",
           {{"to", "there"}, {"x", text_of_number(x)}, {"y", text_of_number(y)}}};
+}
+
+YardCommand path(const std::string& robot, terrain::Point from, terrain::Point to) {
+  const auto text = [](terrain::Point p) { return text_of_number(p.x) + " " + text_of_number(p.y); };
+  return {robot + ".path", robot, "", "path", {{"from", text(from)}, {"to", text(to)}}};
 }
 
 YardCommand turn(const std::string& robot, double x, double y) {
@@ -40,7 +51,7 @@ Yard::Yard(const std::string& scenario, std::vector<std::string> vendors, Script
     : folder_(std::filesystem::temp_directory_path() / ("roci_yard_" + std::to_string(::getpid()))),
       vendors_(std::move(vendors)),
       script_(std::move(script)),
-      run_({"sim_svc", "primary.path", "scout.path", "driver"}) {
+      run_({"sim_svc", "primary.path", "scout.path", "driver"}, domain()) {
   std::filesystem::create_directories(folder_);
   run_.robots = {{"primary.path", "primary"}, {"scout.path", "scout"}};
   services::RunSettings settings;
@@ -57,6 +68,7 @@ Yard::Yard(const std::string& scenario, std::vector<std::string> vendors, Script
   }
   driver_ = &run_.add("driver", 1, vendors_.at(vendor));
   commands_ = services::advertise(*driver_, topics::command);
+  paths_.emplace(services::make_client(*driver_, topics::path_request));
   status_ = services::advertise(*driver_, topics::mission_status);
   services::subscribe(*driver_, topics::command_ack, [this](const v1::CommandAck& ack) { hear(ack); });
   services::subscribe(*driver_, topics::event, [this](const v1::Event& event) {
@@ -83,6 +95,7 @@ void Yard::next() {
     status_.write(over);
     return;
   }
+  if (command->command == "path") return ask(*command);
   running_ = "a" + std::to_string(words_.size() + 1);
   v1::Command out;
   out.commander("driver");
@@ -104,14 +117,46 @@ void Yard::next() {
   commands_.write(out);
 }
 
+void Yard::ask(const YardCommand& command) {
+  const auto pose_of = [](const std::string& text) {
+    v1::Pose2 pose;
+    std::istringstream in(text);
+    double x = 0, y = 0;
+    in >> x >> y;
+    pose.x_m(x);
+    pose.y_m(y);
+    return pose;
+  };
+  v1::PathRequest request;
+  request.origin(pose_of(command.arguments.at("from")));
+  request.goal_pose(pose_of(command.arguments.at("to")));
+  paths_->call(
+      request, command.owner, temporal::seconds(30),
+      [this](const services::CallResult<v1::PathReply>& result) {
+        YardWord word{v1::STAGE_COMPLETED, "", result.reply.reason(), {}, {}};
+        for (const v1::Pose2& one : result.reply.waypoints()) word.way.push_back({one.x_m(), one.y_m()});
+        if (result.status != services::rpc::CallStatus::ok || result.reply.outcome() != v1::MOTION_FOUND) {
+          word.stage = v1::STAGE_FAILED;
+          word.code = "no-path";
+        }
+        trace_.push_back(std::to_string(driver_->now().count()) + " path of " +
+                         std::to_string(word.way.size()) + " points " + word.code);
+        end(std::move(word));
+      });
+}
+
 void Yard::hear(const v1::CommandAck& ack) {
   trace_.push_back(std::to_string(driver_->now().count()) + " " + ack.owner() + " " + ack.activity() + " " +
                    std::to_string(ack.stage()) + " " + ack.code() + " " + ack.reason());
   if (ack.activity() != running_ || ack.stage() == v1::STAGE_ACCEPTED) return;
-  YardWord word{ack.stage(), ack.code(), ack.reason(), {}};
+  YardWord word{ack.stage(), ack.code(), ack.reason(), {}, {}};
   for (const v1::NamedValue& one : ack.outcome().measured()) word.results[one.name()] = one.held().number();
-  words_.push_back(std::move(word));
   running_.clear();
+  end(std::move(word));
+}
+
+void Yard::end(YardWord word) {
+  words_.push_back(std::move(word));
   driver_->after(temporal::seconds(1), [this] { next(); });
 }
 

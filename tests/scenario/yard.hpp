@@ -9,7 +9,9 @@
 #include <string>
 #include <vector>
 
+#include "core/terrain/grid.hpp"
 #include "services/publisher.hpp"
+#include "services/rpc.hpp"
 #include "services/service.hpp"
 #include "tests/unit/services/sim_run.hpp"
 
@@ -23,6 +25,8 @@ struct YardCommand {
   std::map<std::string, std::string> arguments;
 };
 
+/// Asks the path planner of the robot for the way from one place to another; its word has the way, or the code no-path.
+YardCommand path(const std::string& robot, terrain::Point from, terrain::Point to);
 YardCommand drive(const std::string& robot, double x, double y);
 YardCommand turn(const std::string& robot, double x, double y);
 YardCommand localise();
@@ -34,6 +38,7 @@ struct YardWord {
   std::string code;
   std::string reason;
   std::map<std::string, double> results;
+  std::vector<terrain::Point> way;  ///< of a path
 };
 
 class Yard {
@@ -55,7 +60,9 @@ class Yard {
 
  private:
   void next();
+  void ask(const YardCommand&);
   void hear(const v1::CommandAck&);
+  void end(YardWord);
 
   std::filesystem::path folder_;
   std::vector<std::string> vendors_;
@@ -64,6 +71,7 @@ class Yard {
   std::vector<std::unique_ptr<services::Service>> services_;
   services::Node* driver_ = nullptr;
   services::Publisher<v1::Command> commands_;
+  std::optional<services::Client<v1::PathRequest, v1::PathReply>> paths_;
   services::Publisher<v1::MissionStatus> status_;
   std::vector<YardWord> words_;
   std::vector<std::string> events_;

@@ -5,6 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "sim_svc/components/standard_types.hpp"
 #include "sim_svc/scenario/run_file.hpp"
 #include "tests/scenario/true_way.hpp"
@@ -16,34 +18,62 @@ using testing::Contains;
 using testing::HasSubstr;
 using testing::Not;
 
-constexpr int kMostNoGo = 8;  // after which a flight gives up
+constexpr int kMostNoGo = 12;  // after which a flight gives up
+constexpr terrain::Point kStart{5, 15}, kTarget{20, 15};
 
-bool found_no_go(const YardWord& word) { return word.code == "no-go"; }
-
-// The scout goes ahead until it is there; after each No-Go and at the end its map is told. Then the primary follows.
-Yard::Script scout_first(bool tells) {
-  return [tells, phase = 0,
-          tries = 0](const std::vector<YardWord>& words) mutable -> std::optional<YardCommand> {
-    const auto go = [] { return drive("scout", 21.5, 15); };
-    if (phase == 0) {  // to begin with
-      phase = 1;
-      return go();
-    }
-    if (phase == 1) {  // the scout has driven
-      if (found_no_go(words.back()) && ++tries <= kMostNoGo) {
-        if (!tells) return go();
-        phase = 2;
-        return tell("scout");
-      }
-      phase = 3;
-      return drive("primary", 20, 15);
-    }
-    if (phase == 2) {  // the map was told
-      phase = 1;
-      return go();
+// As the paper has it: the way is the primary's, the scout drives it first, from way-point to way-point. After a No-Go the
+// scout's map is told, and there is another way. Where the scout came through, the primary follows.
+class ScoutFirst {
+ public:
+  std::optional<YardCommand> operator()(const std::vector<YardWord>& words) {
+    switch (phase_) {
+      case Phase::begin:
+        return ask();
+      case Phase::path:
+        if (words.back().way.empty()) return std::nullopt;
+        way_ = words.back().way;
+        next_ = 1;
+        phase_ = Phase::scout;
+        return scout();
+      case Phase::scout:
+        if (words.back().code == "no-go" && ++tries_ <= kMostNoGo) {
+          phase_ = Phase::tell;
+          return tell("scout");
+        }
+        if (words.back().stage != v1::STAGE_COMPLETED) return std::nullopt;
+        if (next_ < way_.size()) return scout();
+        phase_ = Phase::primary;
+        return drive("primary", kTarget.x, kTarget.y);
+      case Phase::tell:
+        return ask();
+      case Phase::primary:
+        break;
     }
     return std::nullopt;
-  };
+  }
+
+ private:
+  enum class Phase { begin, path, scout, tell, primary };
+  YardCommand ask() {
+    phase_ = Phase::path;
+    return path("primary", kStart, kTarget);
+  }
+  YardCommand scout() {
+    const terrain::Point to = way_[next_++];
+    return drive("scout", to.x, to.y);
+  }
+
+  Phase phase_ = Phase::begin;
+  std::vector<terrain::Point> way_;
+  std::size_t next_ = 0;
+  int tries_ = 0;
+};
+
+// The scout finds the trap and keeps it to itself.
+std::optional<YardCommand> without_a_word(const std::vector<YardWord>& words) {
+  if (words.empty()) return drive("scout", 21.5, 15);
+  if (words.size() == 1) return drive("primary", kTarget.x, kTarget.y);
+  return std::nullopt;
 }
 
 struct Transports {
@@ -67,27 +97,30 @@ const std::vector<Transports> kTransports{kInproc, kCyclone};
 class TwoRoversInTheYard : public testing::TestWithParam<Transports> {};
 
 TEST_P(TwoRoversInTheYard, TheScoutsMapKeepsThePrimaryOutOfTheTrap) {
-  Yard yard("nominal", GetParam().vendors, scout_first(true));
+  Yard yard("nominal", GetParam().vendors, ScoutFirst{});
   yard.run();
   const auto& words = yard.words();
   ASSERT_GE(words.size(), 4U);
-  EXPECT_EQ(words[0].code, "no-go") << words[0].reason;
-  EXPECT_THAT(words[0].reason, HasSubstr("No-Go for primary"));
-  EXPECT_EQ(words[1].stage, v1::STAGE_COMPLETED);
-  EXPECT_EQ(words[1].results.at("obstacles"), 1);
+  const auto found = std::ranges::find(words, "no-go", &YardWord::code);
+  ASSERT_TRUE(found != words.end() && found + 2 < words.end());
+  EXPECT_THAT(found->reason, HasSubstr("No-Go for primary"));
+  const YardWord& told = *(found + 1);
+  EXPECT_EQ(told.stage, v1::STAGE_COMPLETED);
+  EXPECT_EQ(told.results.at("obstacles"), 1);
+  EXPECT_NE((found + 2)->way, words[0].way) << "another way than before";
   const YardWord& primary = words.back();
   EXPECT_EQ(primary.stage, v1::STAGE_COMPLETED) << primary.code << ": " << primary.reason;
   EXPECT_EQ(primary.results.at("sinkage"), 0) << "it never stood in the trap";
   EXPECT_THAT(yard.events(), Contains(HasSubstr("primary.path map.patch_taken")));
   EXPECT_THAT(yard.events(), Contains(HasSubstr("sim_svc soil.no_go scout says No-Go for primary")));
 
-  Yard again("nominal", kInproc.vendors, scout_first(true));
+  Yard again("nominal", kInproc.vendors, ScoutFirst{});
   again.run();
   EXPECT_EQ(yard.trace(), again.trace()) << "one seed, one trace, whatever carries it";
 }
 
 TEST_P(TwoRoversInTheYard, WithoutThePatchThePrimaryIsDugIn) {
-  Yard yard("nominal", GetParam().vendors, scout_first(false));
+  Yard yard("nominal", GetParam().vendors, without_a_word);
   yard.run();
   const YardWord& primary = yard.words().back();
   EXPECT_EQ(primary.code, "bogged-down");
@@ -128,32 +161,58 @@ TEST(YardSenses, ThePrimarySeesTheScoutBeforeItAndNotBesideIt) {
   EXPECT_EQ(words[4].stage, v1::STAGE_COMPLETED) << words[4].reason;
 }
 
-sim::world::Ground true_ground(const std::string& scenario = "nominal") {
+#endif
+
+sim::world::Ground true_ground(const std::string& scenario = "nominal", std::uint64_t seed = 1) {
   sim::world::Ground ground =
       sim::scenario::load_run(ROCI_SOURCE_DIR "/missions/faster", scenario, sim::components::standard_types())
           .world.ground;
-  sim::world::scatter(ground.surface.soil, 1);
+  sim::world::scatter(ground.surface.soil, seed);
   return ground;
 }
 
 const TrueLimits kPrimary{0.8, 15, 0.1, {2354, 6, 0.1, 0.3}};
 
+#ifdef ROCI_ALL_TRANSPORTS
+constexpr std::uint64_t kSeeds = 200;
+#else
+constexpr std::uint64_t kSeeds = 40;
+#endif
+
+// Traps where the seed puts them: where a way exists on the true map the primary gets there, and it is never dug in.
+TEST(HiddenTraps, WhereAWayExistsThePrimaryFindsIt) {
+  int exist = 0, reached = 0;
+  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+    Yard yard("hidden", kInproc.vendors, ScoutFirst{}, seed);
+    yard.run();
+    const YardWord& primary = yard.words().back();
+    EXPECT_NE(primary.code, "bogged-down") << "seed " << seed;
+    const bool way = true_way(true_ground("hidden", seed), kPrimary, kStart, kTarget).has_value();
+    exist += way ? 1 : 0;
+    reached += way && primary.stage == v1::STAGE_COMPLETED ? 1 : 0;
+  }
+  EXPECT_GT(exist, static_cast<int>(kSeeds) / 2);
+  EXPECT_GE(reached, 0.95 * exist) << exist << " ways exist";
+}
+
+#ifndef ROCI_ALL_TRANSPORTS
+
 TEST(TrueWay, ThereIsOneAroundTheTrapAndItIsLongerThanTheStraightOne) {
   const sim::world::Ground ground = true_ground();
-  const auto way = true_way(ground, kPrimary, {5, 15}, {20, 15});
+  const auto way = true_way(ground, kPrimary, kStart, kTarget);
   ASSERT_TRUE(way);
   EXPECT_GT(way->length_m, 15.5);
   EXPECT_LT(way->length_m, 22);
   for (const terrain::Point p : way->points) EXPECT_FALSE(no_go_at(ground, kPrimary.vehicle, p));
   TrueLimits light = kPrimary;
   light.vehicle = {177, 4, 0.06, 0.4};
-  EXPECT_LT(true_way(ground, light, {5, 15}, {20, 15})->length_m, way->length_m) << "the scout may cross it";
+  EXPECT_LT(true_way(ground, light, kStart, kTarget)->length_m, way->length_m) << "the scout may cross it";
 }
 
 TEST(TrueWay, SoilFromEdgeToEdgeLeavesNone) {
   sim::world::Ground ground = true_ground();
   ground.surface.soil.areas.push_back({"trap", {}, 0, {{{12, -1}, {13, -1}, {13, 31}, {12, 31}}}});
-  EXPECT_FALSE(true_way(ground, kPrimary, {5, 15}, {20, 15}));
+  EXPECT_FALSE(true_way(ground, kPrimary, kStart, kTarget));
   EXPECT_FALSE(true_way(true_ground(), kPrimary, {5, 15}, {11, 15})) << "the goal lies in the trap";
 }
 

@@ -59,24 +59,20 @@ class Execution {
       if (!version_.parts[i].state && !decompositions[i].empty())
         mended = std::max(mended, at_[version_.parts[i].end()]);
     std::vector<std::optional<Duration>> ends(problem.goals.size());
-    for (std::size_t left = problem.goals.size(), before = left + 1; left < before;) {
-      before = left;
+    for (std::size_t round = 0; round < problem.goals.size(); ++round)
       for (Index g = 0; g < problem.goals.size(); ++g) {
         Duration earliest = std::max(problem.goals[g].opens, mended);
         const bool ready = std::ranges::all_of(problem.goals[g].after, [&](Index other) {
           if (ends[other]) earliest = std::max(earliest, *ends[other]);
           return ends[other].has_value();
         });
-        if (!ready || ends[g]) continue;
-        ends[g] = reached(problem.goals[g], earliest);
-        if (ends[g])
-          --left;
-        else
-          return out.push_back(
-              "goal '" + problem.goals[g].id + "', " + to_text(version_.model, problem.goals[g].state, {}) +
-              ", is not reached between " + to_text(earliest) + " and " + to_text(problem.goals[g].closes));
+        if (ready && !ends[g]) ends[g] = reached(problem.goals[g], earliest);
       }
-    }
+    for (Index g = 0; g < problem.goals.size(); ++g)
+      if (!ends[g])
+        out.push_back("executed, goal '" + problem.goals[g].id + "', " +
+                      to_text(version_.model, problem.goals[g].state, {}) +
+                      ", is not reached in its window, after the goals that come first");
   }
 
  private:

@@ -9,8 +9,8 @@ namespace roci::planner::timeline_htn::checking {
 struct Decomposition {
   Index behaviour = 0;
   Binding binding;
-  std::vector<Index>
-      part_of;  ///< by subgoal; kNone where it is a state to rest in that the timeline alone shows
+  /// By subgoal; kNone where it is a state to rest in that the timeline alone shows.
+  std::vector<Index> part_of;
 };
 
 /// By activity; empty for those that are not decomposed.

@@ -10,7 +10,7 @@ namespace roci::planner::timeline_htn::checking {
 namespace {
 
 // Corners and random schedules have together about so many points, so that large plans are executed less often.
-constexpr std::size_t kPoints = 100'000;
+constexpr std::size_t kPoints = 30'000;
 
 std::size_t count_for(const Version& version) {
   return std::clamp<std::size_t>(kPoints / version.plan.point_count, 4, 400);

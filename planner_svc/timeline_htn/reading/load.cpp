@@ -137,7 +137,7 @@ bool note_faults(const Model& model, const std::string& file, const Places& plac
   return model::usable(faults);
 }
 
-std::optional<Model> read(const std::function<void(Roots&)>& open, Findings& findings) {
+std::optional<Model> read(const std::function<void(Roots&)>& open, Findings& findings, Problem kind) {
   const std::size_t before = findings.errors();
   Vocabulary vocabulary;
   Places places;
@@ -146,9 +146,13 @@ std::optional<Model> read(const std::function<void(Roots&)>& open, Findings& fin
     open(roots);
     if (roots.roots.empty()) throw FileError("model: there is no file; name one");
     if (findings.errors() == before) read_sections(roots.roots, vocabulary, places);
-    if (findings.errors() == before &&
-        note_faults(vocabulary.model, roots.roots.front().file().string(), places, findings))
+    if (findings.errors() > before) return std::nullopt;
+    std::optional<model::Problem> left_for_later;
+    if (kind == Problem::of_a_request) left_for_later = std::exchange(vocabulary.model.problem, std::nullopt);
+    if (note_faults(vocabulary.model, roots.roots.front().file().string(), places, findings)) {
+      if (left_for_later) vocabulary.model.problem = std::move(left_for_later);
       return std::move(vocabulary.model);
+    }
   } catch (const FileError& error) {
     findings.add(error.what());
   }
@@ -162,15 +166,15 @@ std::optional<Model> load_model(const std::vector<std::filesystem::path>& files,
       [&](Roots& roots) {
         for (const auto& file : files) roots.add_file(file);
       },
-      findings);
+      findings, Problem::whole);
 }
 
-std::optional<Model> parse_model(const std::vector<Text>& texts, Findings& findings) {
+std::optional<Model> parse_model(const std::vector<Text>& texts, Findings& findings, Problem problem) {
   return read(
       [&](Roots& roots) {
         for (const Text& text : texts) roots.add_text(text);
       },
-      findings);
+      findings, problem);
 }
 
 std::string errors_of(const Findings& findings) {

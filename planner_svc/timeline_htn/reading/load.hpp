@@ -26,8 +26,13 @@ std::optional<model::Model> load_model(const std::vector<std::filesystem::path>&
                                        mission::Findings& findings);
 /// Does the same, and throws mission::FileError with the errors, one in each line.
 model::Model load_model(const std::vector<std::filesystem::path>& files);
+
+/// Says whether the problem of a text is all there is to it, or is to be completed by a request before it is checked.
+enum class Problem { whole, of_a_request };
+
 /// Reads texts, which include nothing.
-std::optional<model::Model> parse_model(const std::vector<Text>& texts, mission::Findings& findings);
+std::optional<model::Model> parse_model(const std::vector<Text>& texts, mission::Findings& findings,
+                                        Problem problem = Problem::whole);
 
 /// Joins the errors to one text, one in each line, with place and remedy.
 std::string errors_of(const mission::Findings& findings);

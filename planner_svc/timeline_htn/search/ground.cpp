@@ -1,6 +1,7 @@
 #include "planner_svc/timeline_htn/search/ground.hpp"
 
 #include <algorithm>
+#include <unordered_set>
 
 namespace roci::planner::timeline_htn::search {
 
@@ -86,6 +87,16 @@ class Binder {
   std::vector<std::vector<Index>> out_;
 };
 
+// Gives the variables among the terms their objects; false where one has another already.
+bool unify(const std::vector<Term>& terms, const std::vector<Index>& objects, std::vector<Index>& bound) {
+  for (std::size_t i = 0; i < terms.size(); ++i) {
+    Index expected = terms[i].object ? terms[i].index : bound[terms[i].index];
+    if (expected == kNone) expected = bound[terms[i].index] = objects[i];
+    if (expected != objects[i]) return false;
+  }
+  return true;
+}
+
 std::vector<Test> renumbered(std::vector<Test> tests, const std::vector<Term>& terms) {
   const auto renumber = [&](std::vector<Term>& list) {
     for (Term& term : list)
@@ -164,29 +175,34 @@ const std::vector<StateId>& Ground::next(StateId state) {
   const GroundState from = instances_[state].state;
   const model::Component& component = model_->components[from.component];
   std::vector<StateId> out;
+  std::unordered_set<StateId> met;
   for (const model::Transition& transition : component.transitions) {
     const State& to = component.states[transition.to];
     if (transition.from != from.state || to.kind == StateKind::error) continue;
     std::vector<Index> bound(transition.variables.size(), kNone);
-    bool fits = true;
-    for (std::size_t i = 0; i < transition.from_terms.size() && fits; ++i) {
-      const Term& term = transition.from_terms[i];
-      Index expected = term.object ? term.index : bound[term.index];
-      if (expected == kNone) expected = bound[term.index] = from.objects[i];
-      fits = expected == from.objects[i];
-    }
-    if (!fits) continue;
+    if (!unify(transition.from_terms, from.objects, bound)) continue;
     for (const auto& objects :
          bindings(transition.variables, bound, renumbered(to.where, transition.to_terms))) {
       GroundState after{from.component, transition.to, {}};
       for (const Term& term : transition.to_terms) after.objects.push_back(model::object_of(term, objects));
       const StateId found = find(after);
-      if (found != kNone && std::ranges::find(out, found) == out.end()) out.push_back(found);
+      if (found != kNone && met.insert(found).second) out.push_back(found);
     }
   }
   bytes_ += out.size() * sizeof(StateId);
   next_[state] = {true, std::move(out)};
   return next_[state].states;
+}
+
+bool Ground::may_follow(StateId from, StateId to) const {
+  const GroundState &before = instances_[from].state, &after = instances_[to].state;
+  if (before.component != after.component || instances_[to].kind == StateKind::error) return false;
+  return std::ranges::any_of(model_->components[before.component].transitions, [&](const auto& transition) {
+    if (transition.from != before.state || transition.to != after.state) return false;
+    std::vector<Index> bound(transition.variables.size(), kNone);
+    return unify(transition.from_terms, before.objects, bound) &&
+           unify(transition.to_terms, after.objects, bound);
+  });
 }
 
 const std::vector<Index>& Ground::distances(StateId from) {
@@ -210,12 +226,14 @@ Index Ground::distance(StateId from, StateId to) {
 }
 
 Index Ground::distance_to_rest(StateId from) {
-  const std::vector<Index>& known = distances(from);
-  const auto& same = by_component_[instances_[from].state.component];
-  Index best = kNone;
-  for (std::size_t i = 0; i < known.size(); ++i)
-    if (instances_[same[i]].kind == StateKind::resting) best = std::min(best, known[i]);
-  return best;
+  std::vector<StateId> queue{from};
+  std::unordered_map<StateId, Index> steps{{from, 0}};
+  for (std::size_t i = 0; i < queue.size(); ++i) {
+    if (instances_[queue[i]].kind == StateKind::resting) return steps[queue[i]];
+    for (const StateId after : next(queue[i]))
+      if (steps.emplace(after, steps[queue[i]] + 1).second) queue.push_back(after);
+  }
+  return kNone;
 }
 
 bool Ground::fits(StateId state, const Pattern& pattern, std::span<const Index> bound) const {

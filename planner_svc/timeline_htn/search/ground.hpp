@@ -40,6 +40,8 @@ class Ground {
   const model::State& definition(StateId state) const;
   /// Returns what may follow at once, without error states: in the order of the transitions, then of the objects.
   const std::vector<StateId>& next(StateId state);
+  /// Returns whether one of them is this state, without making the others.
+  bool may_follow(StateId from, StateId to) const;
   /// Returns how many transitions lead from one state to another of its component; kNone: none do.
   Index distance(StateId from, StateId to);
   /// Returns how many lead to a state to rest in.

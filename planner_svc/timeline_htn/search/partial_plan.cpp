@@ -133,7 +133,6 @@ void PartialPlan::take_back(const Mark& mark) {
       open_.insert(open_.begin() + change.index, change.before);
     } else if (change.field == Field::placed) {
       activities_[change.index].placed = change.before != 0;
-      --placed_;
     } else {
       slot(change.field, change.index) = change.before;
     }
@@ -211,7 +210,6 @@ void PartialPlan::place(Index activity) {
   open_.erase(found);
   changes_.push_back({Field::placed, activity, 0});
   activities_[activity].placed = true;
-  ++placed_;
 }
 
 // The activity is complete: so may be those above it.
@@ -254,10 +252,7 @@ Index PartialPlan::goal_of(Index activity) const {
 }
 
 bool PartialPlan::refuse(Obstacle obstacle) {
-  if (obstacle_.kind == Obstacle::Kind::none || placed_ + 1 > farthest_) {
-    obstacle_ = obstacle;
-    farthest_ = placed_ + 1;
-  }
+  obstacle_ = obstacle;
   return false;
 }
 
@@ -519,39 +514,42 @@ bool PartialPlan::path_to_need(StateId state) {
 }
 
 bool PartialPlan::take(const Step& step) {
+  obstacle_ = {};
+  if (apply(step)) return true;
+  if (obstacle_.kind != Obstacle::Kind::none) return false;
+  const bool placing =
+      step.kind == StepKind::attach || step.kind == StepKind::append || step.kind == StepKind::decompose;
+  return refuse({Obstacle::Kind::time, placing ? goal_of(step.subject) : kNone,
+                 placing ? activities_[step.subject].state : kNone, kNone, kNone, kNone});
+}
+
+bool PartialPlan::apply(const Step& step) {
   switch (step.kind) {
     case StepKind::attach:
-      if (attach(step.subject)) return true;
-      break;
+      return attach(step.subject);
     case StepKind::append:
-      if (go_on(step.subject, step.first)) return true;
-      break;
+      return go_on(step.subject, step.first);
+    case StepKind::decompose:
+      return decompose(step.subject, step.first, step.second);
+    case StepKind::path_to_need:
+      return path_to_need(step.first);
+    case StepKind::rest:
+      return step_between(step.first, kNone, kNone, false);
     case StepKind::nest:
       place(step.subject);
       set(Field::parts, step.subject, 1);
       push({UrgentKind::decompose, step.subject, 0, kNone, 0, kNone});
       return true;
-    case StepKind::decompose:
-      return decompose(step.subject, step.first, step.second);
     case StepKind::need_here:
       pop();
-      if (meet_need(step.subject, step.second, step.first)) return true;
-      break;
-    case StepKind::need_path: {
+      return meet_need(step.subject, step.second, step.first);
+    case StepKind::need_path:
       pop();
       push({UrgentKind::path_to_need, step.subject, step.second, step.first,
             static_cast<Index>(tokens_.size()), kNone});
       return true;
-    }
-    case StepKind::path_to_need:
-      if (path_to_need(step.first)) return true;
-      break;
-    case StepKind::rest:
-      return step_between(step.first, kNone, kNone, false);
   }
-  const bool activity = step.kind == StepKind::attach || step.kind == StepKind::append;
-  return refuse({Obstacle::Kind::time, activity ? goal_of(step.subject) : kNone,
-                 activity ? activities_[step.subject].state : kNone, kNone, kNone, kNone});
+  return false;
 }
 
 bool PartialPlan::close() {

@@ -72,7 +72,7 @@ struct Step {
   friend bool operator==(const Step&, const Step&) = default;
 };
 
-/// Says why a step could not be taken; the farthest one is told to people.
+/// Says why a step could not be taken.
 struct Obstacle {
   enum class Kind {
     none,
@@ -153,6 +153,7 @@ class PartialPlan {
   bool passed(Index component, StateId state, Index path_from) const;
   /// Returns the variables of a need: those of the state, others kNone.
   std::vector<Index> need_variables(Index token) const;
+  /// Tells why the last step could not be taken.
   const Obstacle& obstacle() const { return obstacle_; }
   std::size_t refusals_by_time() const { return refusals_by_time_; }
   std::size_t bytes() const;
@@ -203,6 +204,7 @@ class PartialPlan {
   bool meet_need(Index token, Index need, Index other);
   bool path_to_need(StateId state);
   bool refuse(Obstacle obstacle);
+  bool apply(const Step& step);
   Index goal_of(Index activity) const;
   void add_mending();
 
@@ -220,8 +222,6 @@ class PartialPlan {
   std::vector<std::vector<std::pair<Index, Index>>> mending_;
   bool sound_ = true;
   Obstacle obstacle_;
-  std::size_t farthest_ = 0;
-  std::size_t placed_ = 0;
   std::size_t refusals_by_time_ = 0;
 };
 

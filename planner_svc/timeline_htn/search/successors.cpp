@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "planner_svc/timeline_htn/search/decompositions.hpp"
+
 namespace roci::planner::timeline_htn::search {
 
 using model::StateKind, model::Term;
@@ -13,7 +15,10 @@ constexpr int kTokensLookedBack = 4;
 }  // namespace
 
 Successors::Successors(Ground& ground, Bindings& bindings, Order order)
-    : ground_(&ground), bindings_(&bindings), order_(order) {
+    : ground_(&ground),
+      bindings_(&bindings),
+      order_(order),
+      below_(std::make_unique<Decompositions>(ground, *this)) {
   const auto& behaviours = ground.model().behaviours;
   for (Index b = 0; b < behaviours.size(); ++b)
     if (behaviours[b].achieves)
@@ -21,6 +26,8 @@ Successors::Successors(Ground& ground, Bindings& bindings, Order order)
   for (auto& [state, list] : behaviours_)
     std::ranges::stable_sort(list, std::greater{}, [&](Index b) { return behaviours[b].priority; });
 }
+
+Successors::~Successors() = default;
 
 const std::vector<Index>& Successors::behaviours(Index component, Index state) const {
   static const std::vector<Index> none;
@@ -70,13 +77,16 @@ std::vector<Index> Successors::candidates(const PartialPlan& plan) {
   // Those that nothing outside of the set interferes with: what waits for one of them comes after it anyway.
   std::vector<Index> chosen{ready.front()};
   ComponentSet touched = footprint(ready.front());
+  // Whether the activity comes after the other, or after what the other is a part of.
   const auto waits_for = [&](Index activity, Index other) {
-    std::vector<Index> open{activity};
-    for (std::size_t i = 0; i < open.size(); ++i)
-      for (const Index earlier : plan.before(open[i])) {
-        if (earlier == other) return true;
-        if (std::ranges::find(open, earlier) == open.end()) open.push_back(earlier);
-      }
+    std::vector<Index> earlier = plan.before(activity);
+    for (std::size_t i = 0; i < earlier.size(); ++i) {
+      if (plan.complete(earlier[i])) continue;
+      for (Index above = other; above != kNone; above = plan.activities()[above].parent)
+        if (above == earlier[i]) return true;
+      for (const Index more : plan.before(earlier[i]))
+        if (std::ranges::find(earlier, more) == earlier.end()) earlier.push_back(more);
+    }
     return false;
   };
   for (bool more = true; more;) {
@@ -91,8 +101,11 @@ std::vector<Index> Successors::candidates(const PartialPlan& plan) {
         more = true;
         continue;
       }
-      for (const Index first : ready) {  // it waits for something: all that is ready may be in its way
-        if (std::ranges::find(chosen, first) != chosen.end()) continue;
+      // It comes once others are complete: what of these is ready must be among the chosen. What else holds it up may be anything.
+      const bool known = std::ranges::any_of(ready, [&](Index first) { return waits_for(activity, first); });
+      for (const Index first : ready) {
+        if (std::ranges::find(chosen, first) != chosen.end() || (known && !waits_for(activity, first)))
+          continue;
         chosen.push_back(first);
         touched |= footprint(first);
         more = true;
@@ -106,6 +119,10 @@ std::vector<Index> Successors::candidates(const PartialPlan& plan) {
 
 std::vector<StateId> Successors::towards(const PartialPlan& plan, Index component, StateId goal,
                                          Index path_from, bool complex_permitted) {
+  if (!detours_ && ground_->may_follow(plan.current_state(component), goal)) {
+    left_out_ = true;
+    return {goal};
+  }
   std::vector<std::pair<Index, StateId>> found;
   for (const StateId after : std::vector<StateId>(ground_->next(plan.current_state(component)))) {
     const Index left = ground_->distance(after, goal);
@@ -163,10 +180,32 @@ void Successors::decompositions(const PartialPlan& plan, Index activity, std::ve
   for (const Index behaviour : behaviours(ground.component, ground.state)) {
     auto all = ways(behaviour, state);
     if (order_ == Order::last_declared) std::ranges::reverse(all);
-    for (const auto& objects : all) add(behaviour, bindings_->number(objects));
+    for (const auto& objects : all)
+      if (recursion_can_end(plan, activity, behaviour, objects)) add(behaviour, bindings_->number(objects));
   }
   if (out.empty())
     obstacle_ = {Obstacle::Kind::no_behaviour, plan.activities()[activity].goal, state, kNone, kNone, kNone};
+}
+
+bool Successors::recursion_can_end(const PartialPlan& plan, Index activity, Index index,
+                                   const std::vector<Index>& objects) {
+  std::vector<StateId> above;
+  for (Index one = activity; one != kNone; one = plan.activities()[one].parent)
+    if (plan.activities()[one].state != kNone) above.push_back(plan.activities()[one].state);
+  std::ranges::sort(above);
+  for (const model::Subgoal& subgoal : ground_->model().behaviours[index].subgoals) {
+    const model::Pattern& pattern = subgoal.state;
+    const bool recursive = std::ranges::any_of(above, [&](StateId state) {
+      const model::GroundState& one = ground_->at(state).state;
+      return one.component == pattern.component && one.state == pattern.state;
+    });
+    if (!recursive) continue;
+    model::GroundState part{pattern.component, pattern.state, {}};
+    for (const Term& term : pattern.terms) part.objects.push_back(model::object_of(term, objects));
+    const StateId state = ground_->find(part);
+    if (state != kNone && !below_->derivable_without(state, above)) return false;
+  }
+  return true;
 }
 
 void Successors::needs(const PartialPlan& plan, const Urgent& item, std::vector<Step>& out) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -12,6 +13,8 @@ namespace roci::planner::timeline_htn::search {
 /// Says which of several equally good steps comes first.
 enum class Order { first_declared, last_declared };
 
+class Decompositions;
+
 /// Gives the steps that lead on from a plan, so that every plan that there is can still be reached.
 ///
 /// What is urgent is settled at once: the parts of a complex state, then what a value needs of others. Else the open activity that may
@@ -21,6 +24,7 @@ enum class Order { first_declared, last_declared };
 class Successors {
  public:
   Successors(Ground& ground, Bindings& bindings, Order order);
+  ~Successors();
 
   /// Writes the steps in the order in which they are to be tried. None: a dead end, or the plan is whole.
   void of(const PartialPlan& plan, std::vector<Step>& out);
@@ -40,6 +44,9 @@ class Successors {
  private:
   void urgent(const PartialPlan& plan, const Urgent& item, std::vector<Step>& out);
   void decompositions(const PartialPlan& plan, Index activity, std::vector<Step>& out);
+  // Whether a recursion through the parts of a behaviour can end without the states that they are to stand below.
+  bool recursion_can_end(const PartialPlan& plan, Index activity, Index behaviour,
+                         const std::vector<Index>& objects);
   void needs(const PartialPlan& plan, const Urgent& item, std::vector<Step>& out);
   void place(const PartialPlan& plan, Index activity, std::vector<Step>& out);
   void rest(const PartialPlan& plan, std::vector<Step>& out);
@@ -52,6 +59,7 @@ class Successors {
   Bindings* bindings_;
   Order order_;
   std::map<std::pair<Index, Index>, std::vector<Index>> behaviours_;
+  std::unique_ptr<Decompositions> below_;
   bool detours_ = false;
   bool left_out_ = false;
   Obstacle obstacle_;

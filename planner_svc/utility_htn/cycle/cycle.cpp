@@ -161,7 +161,6 @@ void Cycle::resume(const Past& past, std::vector<Block> blocks, std::uint32_t la
 Report Cycle::run(Time now) {
   Report report;
   report.notes = std::exchange(notes_, {});
-  const auto planned_before = not_begun();
   const auto does = [&](Activity what, bool changes) {
     if (!changes) return;
     report.done.push_back(what);
@@ -181,7 +180,7 @@ Report Cycle::run(Time now) {
   does(Activity::repair, (settings_.repairs && surprised && repair(now, report)) || reordered);
   if (settings_.optimizes) does(Activity::optimize, optimize(now, report));
   if (settings_.repairs && report.changed) keep_limits(report);
-  if (report.changed) tell_losses(planned_before, now, report);
+  tell_losses(now, report);
   return report;
 }
 
@@ -404,8 +403,11 @@ bool Cycle::end_with_budget(Time now, Report& report) {
   report.notes.push_back("the budget does not last to the end of the mission: it is planned to " +
                          temporal::to_text(plan_end_));
   std::vector<std::uint32_t> beyond;
-  for (const Block& other : blocks_)
-    if (!other.begun() && other.links.back().end > plan_end_) beyond.push_back(other.number);
+  for (const Block& other : blocks_) {
+    const model::Task& last = network_.tasks[other.links.back().task];
+    const bool from_outside = last.fixed && last.commands.empty();
+    if (!other.begun() && !from_outside && other.links.back().end > plan_end_) beyond.push_back(other.number);
+  }
   for (const std::uint32_t number : beyond) drop(*block(number), "the mission ends before", report);
   to_schedule_ = to_optimize_ = true;
   return true;

@@ -128,9 +128,7 @@ class Cycle {
   void put_in(const Block& placed);
   void abandon(Block& begun, const std::string& why, Report& report);
   void forget_over(Report& report);
-  std::map<model::TaskIndex, std::uint32_t> not_begun() const;
-  void tell_losses(const std::map<model::TaskIndex, std::uint32_t>& planned_before, temporal::Time now,
-                   Report& report);
+  void tell_losses(temporal::Time now, Report& report);
   void edit_network(model::TaskIndex task);
   struct Found {
     search::Plan plan;
@@ -174,6 +172,8 @@ class Cycle {
   temporal::Time plan_end_ =
       temporal::no_bound;  // of the network, or before it where the budget does not last
   std::uint32_t last_block_ = 0;
+  std::map<model::TaskIndex, std::uint32_t>
+      planned_;                     // after the newest run: requests not begun, and their chains
   std::vector<std::string> notes_;  // since the cycle before
   bool to_schedule_ = true;         // something waits that was not tried in this situation
   bool scheduled_ = false;          // ever

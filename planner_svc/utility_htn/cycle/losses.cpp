@@ -1,7 +1,7 @@
 // What was planned and is not any more, with the reason (R119): whoever reads what a cycle did sees what the mission has lost.
 #include <map>
 #include <set>
-#include <utility>
+#include <vector>
 
 #include "planner_svc/utility_htn/cycle/cycle.hpp"
 #include "planner_svc/utility_htn/search/explanation.hpp"
@@ -11,25 +11,19 @@ namespace roci::planner::utility_htn::cycle {
 using model::TaskIndex;
 using temporal::Time;
 
-// Returns the requests that are planned and not begun, with their chains.
-std::map<TaskIndex, std::uint32_t> Cycle::not_begun() const {
-  std::map<TaskIndex, std::uint32_t> out;
-  for (const Block& one : blocks_)
-    if (!one.begun()) out[chains_.chains[one.chain].task] = one.chain;
-  return out;
-}
-
-void Cycle::tell_losses(const std::map<TaskIndex, std::uint32_t>& planned_before, Time now, Report& report) {
+void Cycle::tell_losses(Time now, Report& report) {
   std::map<TaskIndex, std::uint32_t> lost;
   for (const TaskIndex task : waiting())
-    if (const auto known = planned_before.find(task); known != planned_before.end()) lost.insert(*known);
+    if (const auto known = planned_.find(task); known != planned_.end()) lost.insert(*known);
+  planned_.clear();
+  for (const Block& one : blocks_)
+    if (!one.begun()) planned_[chains_.chains[one.chain].task] = one.chain;
   if (lost.empty()) return;
   std::set<TaskIndex> asked;
   for (const auto& [task, chain] : lost) asked.insert(task);
   const std::vector<double> newest = values_now(now);
   const search::Problem problem = problem_for(now, asked, newest);
-  for (const auto& [task, chain] : lost)
-    report.notes.push_back(search::why_not(problem, {}, chain).text);
+  for (const auto& [task, chain] : lost) report.notes.push_back(search::why_not(problem, {}, chain).text);
 }
 
 }  // namespace roci::planner::utility_htn::cycle

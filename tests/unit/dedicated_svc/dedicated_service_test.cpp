@@ -47,6 +47,11 @@ dedicated:
       during: [traversing, "{wp}"]
       then: [at, "{wp}"]
       failed: {no-go: [hazard-detected], "*": [failed]}
+    Stand:
+      calls:
+        - {name: spot, transform: {place: {robot: scout, ahead_m: 2, left_m: 1}, robot: scout}, check: {world_x: {at_least: 2, at_most: 2}}}
+        - {name: seen, observe: {timeline: ground.window, is: [true]}}
+      results: {y: "{spot.world_y}", left: "{spot.y}"}
     Look:
       calls:
         - {name: seen, observe: {timeline: scout.nav, is: [idle-at, w1]}, within_s: 50}
@@ -243,6 +248,21 @@ TEST_F(DedicatedServiceTest, WaitsForAnObservation) {
                        });
                    }),
               Contains("30 a completed done"));
+}
+
+TEST_F(DedicatedServiceTest, FindsAPlaceBesideARobotAndWaitsForATruth) {
+  EXPECT_THAT(talk({{1s, command("a", "Stand")}}, {"done"}, v1::MOTION_FOUND,
+                   [](services::Node& master) {
+                     for (const auto& [at, open] : {std::pair{10s, false}, std::pair{30s, true}})
+                       master.at(at, [&master, open = open] {
+                         v1::Observation seen;
+                         seen.timeline("ground.window");
+                         seen.observed().kind(v1::VALUE_BOOLEAN);
+                         seen.observed().truth(open);
+                         services::advertise(master, topics::observation).write(seen);
+                       });
+                   }),
+              Contains("30 a completed done left=1.0 y=1.0"));
 }
 
 TEST_F(DedicatedServiceTest, ACancelAndAStopEndTheCallFirst) {

@@ -53,6 +53,8 @@ TEST(MethodsFile, RefusesWhatCannotBeMeant) {
       {"      calls: [{name: a, observe: {timeline: t}, check: {v: {at_least: 2, at_most: 1}}}]\n",
        "'at_least' must not be above"},
       {"      calls: [{name: a, transform: {place: {x: \"1\"}, robot: r}}]\n", "either 'object', or 'robot'"},
+      {"      calls: [{name: a, transform: {place: {x: \"1\", y: \"2\", ahead_m: 3}, robot: r}}]\n",
+       "'ahead_m' and 'left_m' are of a robot"},
       {"      calls: [{name: a, observe: {timeline: t, whithin_s: 3}}]\n", "whithin_s"},
       {"      calls: [" + std::string(kCall) + "]\n      repairs: {e: {calls: [" + kCall + "]}}\n",
        "stands twice"},

@@ -142,6 +142,24 @@ TEST_F(ContinuousPlanning, APlanEndsWithTheLastGoalAndWhatRunsByCommand) {
   EXPECT_THAT(trace, AllOf(Contains("plan.finished"), Not(Contains("cancel"))));
 }
 
+// A command behind a wait that nothing ends would hold the mission open, too.
+TEST_F(ContinuousPlanning, APlanEndsThoughWhatIsCommittedWaitsForWhatNeverComes) {
+  engine.image("1", CommitState::committed);
+  PlanActivity& waits = engine.activity("waits", "", 1);
+  waits.pre = temporal::compare("rover.camera", temporal::ConditionOp::eq, state("gone"));
+  waits.wait_timeout = seconds(1e6);
+  waits.commit = CommitState::committed;
+  waits.preferred_start = seconds(300);
+  engine.image("next", CommitState::committed);
+  engine.find("next").preferred_start = seconds(301);
+  engine.after("waits", "next");
+  run(350, with_plan(robot_and({photo("1")})));
+  EXPECT_EQ(reactor.outcome(), "") << "its time has just come";
+  run(1000, {});
+  EXPECT_EQ(reactor.outcome(), "achieved");
+  EXPECT_THAT(begun(), ElementsAre("1"));
+}
+
 // What the ground has set counts until an activity makes something else of it, whatever versions come and whoever asks for it again.
 TEST_F(ContinuousPlanning, AnActivityChangesWhatTheGroundHasSet) {
   mission.ground.values = {"hold"};

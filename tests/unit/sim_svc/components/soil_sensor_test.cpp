@@ -21,7 +21,7 @@ const WheeledVehicle kFollower{2400, 6, 0.1, 0.3};
 
 SoilSensorSettings bevameter(double noise = 0) {
   SoilSensorSettings out;
-  out.instruments = {{"wheel_bevameter", 0.1, 0.05, noise, true}};
+  out.instruments = {{"wheel_bevameter", 0.1, 0, 0.05, noise, true}};
   out.judges_for = "primary";
   out.vehicle = kFollower;
   return out;
@@ -48,6 +48,23 @@ TEST(SoilSensor, SaysNoGoWhereItMeasuresAndNotBefore) {
   ASSERT_TRUE(no_go);
   EXPECT_NEAR(no_go->at.x, 28.01, 1e-9);
   EXPECT_FALSE(no_go->expected.bears);
+}
+
+TEST(SoilSensor, MeasuresUnderTheWheelsOfEitherSide) {
+  SoilSensorSettings settings = bevameter();
+  settings.instruments.push_back(settings.instruments[0]);
+  settings.instruments[0].beside_m = 0.5;
+  settings.instruments[1].beside_m = -0.5;
+  world::RandomStream noise(1, "soil");
+  const std::vector<MarkedDisc> known;
+  const auto at_y = [&](double y, double heading) {
+    SoilSensor sensor(settings, known, noise);
+    return sensor.sense(trapped(), {30, y, heading}, 0);
+  };
+  ASSERT_TRUE(at_y(17.6, 0));  // the trap begins at 18, to the left of who drives east
+  EXPECT_NEAR(at_y(17.6, 0)->at.y, 18.1, 1e-9);
+  EXPECT_NEAR(at_y(22.4, 0)->at.y, 21.9, 1e-9);
+  EXPECT_FALSE(at_y(17.4, 0));
 }
 
 TEST(SoilSensor, JudgesByTheFootingOfTheVehicleThatIsToFollow) {

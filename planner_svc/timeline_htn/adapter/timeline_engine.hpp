@@ -1,0 +1,30 @@
+// The engine behind planner_svc's seam: a request in, a plan of hierarchical flexible timelines out.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "planner_svc/engine/answering_engine.hpp"
+#include "planner_svc/timeline_htn/search/resolvers.hpp"
+
+namespace roci::planner::timeline_htn::adapter {
+
+/// Says which searches run, and on how many threads: the plan is the same for any number of these (R132).
+struct Settings {
+  std::vector<search::Resolver> resolvers{search::Resolver{}};  ///< at least one
+  std::size_t threads = 1;
+};
+
+/// `Request::model` is domain and behaviours, with or without a problem; `problem_text` may hold more of the model. What the request says
+/// of states, objects and goals counts.
+class TimelineEngine final : public engine::AnsweringEngine {
+ public:
+  explicit TimelineEngine(Settings settings = {}) : settings_(std::move(settings)) {}
+  engine::Answer answer(const engine::Request& request, const engine::Limits& limits,
+                        engine::FunctionSource& functions) override;
+
+ private:
+  Settings settings_;
+};
+
+}  // namespace roci::planner::timeline_htn::adapter

@@ -1,0 +1,179 @@
+#include "planner_svc/timeline_htn/request/problem_of.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <optional>
+
+#include "planner_svc/timeline_htn/reading/load.hpp"
+
+namespace roci::planner::timeline_htn::request {
+
+using engine::Request;
+using model::GroundState, model::Index, model::Model, model::Pattern, model::StateKind, model::Term;
+using temporal::ConditionOp, temporal::Duration;
+
+namespace {
+
+constexpr Index kOpen = ~Index{0};
+const Duration kDay = temporal::seconds(86400);
+
+std::optional<Index> object_named(const Model& model, const std::string& name, Index type) {
+  for (Index i = 0; i < model.objects.size(); ++i)
+    if (model.objects[i].name == name && model.objects[i].type == type) return i;
+  return std::nullopt;
+}
+
+// Gives the parameters of a state their objects from a value by which it is observed; false: it is another state.
+bool matches(const Model& model, const model::State& state, const temporal::Value& value,
+             std::vector<Index>& objects) {
+  const model::Observed& observed = *state.observed;
+  if (const bool* truth = std::get_if<bool>(&value)) return observed.word == (*truth ? "true" : "false");
+  if (const double* number = std::get_if<double>(&value))
+    return std::strtod(observed.word.c_str(), nullptr) == *number && !observed.word.empty() &&
+           observed.word.find_first_not_of("0123456789.eE+-") == std::string::npos;
+  const auto* seen = std::get_if<temporal::State>(&value);
+  if (seen == nullptr || seen->name != observed.word || seen->arguments.size() != observed.terms.size())
+    return false;
+  for (std::size_t i = 0; i < observed.terms.size(); ++i) {
+    const Index parameter = observed.terms[i].index;
+    const auto object = object_named(model, seen->arguments[i], state.parameters[parameter].type);
+    if (!object || (objects[parameter] != kOpen && objects[parameter] != *object)) return false;
+    objects[parameter] = *object;
+  }
+  return true;
+}
+
+// A parameter that is not seen has a value if only one fits.
+bool complete(const Model& model, const model::State& state, std::vector<Index>& objects) {
+  for (Index parameter = 0; parameter < objects.size(); ++parameter) {
+    if (objects[parameter] != kOpen) continue;
+    Index found = kOpen;
+    for (Index i = 0; i < model.objects.size(); ++i) {
+      if (model.objects[i].type != state.parameters[parameter].type) continue;
+      if (found != kOpen) return false;
+      found = i;
+    }
+    if (found == kOpen) return false;
+    objects[parameter] = found;
+  }
+  return true;
+}
+
+std::optional<Pattern> state_of(const Model& model, Index component, const std::string& timeline,
+                                const temporal::Value& value) {
+  const auto& states = model.components[component].states;
+  for (Index s = 0; s < states.size(); ++s) {
+    if (!states[s].observed || states[s].observed->timeline != timeline) continue;
+    std::vector<Index> objects(states[s].parameters.size(), kOpen);
+    if (!matches(model, states[s], value, objects) || !complete(model, states[s], objects)) continue;
+    Pattern out{component, s, {}};
+    for (const Index object : objects) out.terms.push_back({object, true});
+    return out;
+  }
+  return std::nullopt;
+}
+
+// The state of the component of this name, as the value says it.
+std::optional<Pattern> own_state(const Model& model, Index component, const temporal::Value& value) {
+  const auto* wanted = std::get_if<temporal::State>(&value);
+  if (wanted == nullptr) return std::nullopt;
+  const auto& states = model.components[component].states;
+  for (Index s = 0; s < states.size(); ++s) {
+    if (states[s].name != wanted->name || states[s].parameters.size() != wanted->arguments.size()) continue;
+    Pattern out{component, s, {}};
+    for (std::size_t i = 0; i < wanted->arguments.size(); ++i) {
+      const auto object = object_named(model, wanted->arguments[i], states[s].parameters[i].type);
+      if (!object) return std::nullopt;
+      out.terms.push_back({*object, true});
+    }
+    return out;
+  }
+  return std::nullopt;
+}
+
+std::optional<Pattern> goal_state(const Model& model, const temporal::ConditionNode& node) {
+  for (Index c = 0; c < model.components.size(); ++c)
+    if (model.components[c].name == node.timeline) return own_state(model, c, node.operand);
+  for (Index c = 0; c < model.components.size(); ++c)
+    if (const auto found = state_of(model, c, node.timeline, node.operand)) return found;
+  return std::nullopt;
+}
+
+void put_objects(const Request& request, Model& model) {
+  for (const engine::Object& object : request.objects) {
+    const auto type = std::ranges::find(model.types, object.type);
+    const bool known =
+        std::ranges::find(model.objects, object.name, &model::Object::name) != model.objects.end();
+    if (type != model.types.end() && !known)
+      model.objects.push_back({object.name, static_cast<Index>(type - model.types.begin())});
+  }
+}
+
+void put_states(const Request& request, Model& model, std::vector<Misfit>& misfits) {
+  for (Index c = 0; c < model.components.size(); ++c) {
+    std::string seen;
+    bool found = false;
+    for (const model::State& state : model.components[c].states) {
+      if (!state.observed || found) continue;
+      const auto value = request.state.find(state.observed->timeline);
+      if (value == request.state.end()) continue;
+      seen = value->first + " = " + temporal::to_text(value->second);
+      if (auto pattern = state_of(model, c, value->first, value->second)) {
+        model.problem->initial[c] = std::move(*pattern);
+        found = true;
+      }
+    }
+    if (found || (seen.empty() && model.problem->initial[c])) continue;
+    misfits.push_back(
+        {"", "it is not known in which state '" + model.components[c].name + "' is" +
+                 (seen.empty() ? std::string(": no timeline of it was observed; say 'observed' of its "
+                                             "states, or its state under 'initial'")
+                               : ": " + seen + " is no value of its states; say 'observed' of one")});
+  }
+}
+
+Duration from_origin(const Request& request, temporal::Time time) {
+  return temporal::bounded(time) ? std::max(Duration{0}, time - request.origin) : time;
+}
+
+void put_goal(const Request& request, const engine::Goal& goal, Model& model, std::vector<Misfit>& misfits) {
+  if (goal.closes < request.origin) return misfits.push_back({goal.key(), "its window has closed"});
+  bool any = false;
+  for (const temporal::ConditionNode& node : goal.achieved.nodes) {
+    if (node.op == ConditionOp::all_of) continue;
+    const auto state = node.op == ConditionOp::eq ? goal_state(model, node) : std::nullopt;
+    if (!state)
+      return misfits.push_back(
+          {goal.key(), "'" + temporal::describe(goal.achieved) +
+                           "' is no state of a component of the model; ask for 'TIMELINE = STATE', where "
+                           "the timeline is a component's or one by which its states are observed"});
+    model.problem->goals.push_back(
+        {goal.key(), *state, from_origin(request, goal.opens), from_origin(request, goal.closes), {}});
+    any = true;
+  }
+  if (!any) misfits.push_back({goal.key(), "it asks for nothing; name a state"});
+}
+
+}  // namespace
+
+std::optional<Model> read_model(const Request& request, mission::Findings& findings) {
+  std::vector<reading::Text> texts{{"model", request.model}};
+  if (!request.problem_text.empty()) texts.push_back({"problem", request.problem_text});
+  return reading::parse_model(texts, findings, reading::Problem::of_a_request);
+}
+
+std::vector<Misfit> put_request(const Request& request, Model& model) {
+  std::vector<Misfit> misfits;
+  put_objects(request, model);
+  if (!model.problem) {
+    model.problem.emplace();
+    model.problem->horizon = kDay;
+    model.problem->initial.resize(model.components.size());
+  }
+  model.problem->goals.clear();
+  put_states(request, model, misfits);
+  for (const engine::Goal& goal : request.goals) put_goal(request, goal, model, misfits);
+  return misfits;
+}
+
+}  // namespace roci::planner::timeline_htn::request

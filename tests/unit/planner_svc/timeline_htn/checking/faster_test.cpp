@@ -1,0 +1,157 @@
+// The problems of the two rovers (missions/faster): each is planned with the behaviour that the paper names, and passes the checker.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "core/temporal/network_distances.hpp"
+#include "planner_svc/timeline_htn/checking/check.hpp"
+#include "tests/unit/planner_svc/timeline_htn/checking/plans.hpp"
+
+namespace roci::planner::timeline_htn::checking {
+namespace {
+
+using model::Index, temporal::FlexiblePlan, temporal::PlanActivity;
+using testing::Contains;
+using testing::IsEmpty;
+using testing::Not;
+
+std::vector<std::string> names(const FlexiblePlan& plan) {
+  std::vector<std::string> out;
+  for (const PlanActivity& activity : plan.activities) out.push_back(activity.name);
+  return out;
+}
+
+std::size_t count(const FlexiblePlan& plan, const std::string& beginning) {
+  return static_cast<std::size_t>(std::ranges::count_if(
+      plan.activities, [&](const PlanActivity& activity) { return activity.name.starts_with(beginning); }));
+}
+
+FlexiblePlan checked_plan(const std::string& problem) {
+  const model::Model model = load("missions/faster/" + problem + ".yaml");
+  FlexiblePlan plan = plan_for(model);
+  EXPECT_THAT(faults(model, plan), IsEmpty()) << problem;
+  return plan;
+}
+
+// R147, R148: the two goals, five planned timelines, twelve cycles of a traverse as a team. Nothing of it stands in code or problem.
+TEST(FasterModel, TheTrialIsPlannedAsTwelveCycles) {
+  const FlexiblePlan plan = checked_plan("problem");
+  EXPECT_EQ(count(plan, "navigation.team_cycle("), 12U);
+  EXPECT_EQ(count(plan, "scout_locomotion.traversing_with_ss("), 12U);
+  EXPECT_EQ(count(plan, "primary_locomotion.following("), 12U);
+  EXPECT_EQ(count(plan, "antenna.downlinking(traverse_done)"), 1U);
+  EXPECT_EQ(plan.decisions.size(), 13U) << "the route, and in each cycle whether the primary follows";
+  std::set<std::string> owners;
+  for (const PlanActivity& activity : plan.activities)
+    if (!activity.owner.empty()) owners.insert(activity.owner);
+  EXPECT_EQ(owners, (std::set<std::string>{"communications", "primary.locomotion", "primary.path_planning",
+                                           "scout.locomotion", "scout.path_planning"}));
+}
+
+// R139: in one cycle, whatever the durations.
+TEST(FasterModel, TheStepsOfACycleFollowEachOtherAndItsDecisionIsOpen) {
+  const FlexiblePlan plan = checked_plan("problem");
+  const temporal::NetworkDistances network(plan.point_count, all_constraints(plan));
+  const auto first = [&](const std::string& beginning) {
+    return *std::ranges::find_if(plan.activities,
+                                 [&](const auto& activity) { return activity.name.starts_with(beginning); });
+  };
+  const std::vector<std::string> steps{"primary_path.selecting",
+                                       "primary_path.localising",
+                                       "antenna.telling_place",
+                                       "scout_locomotion.turning",
+                                       "scout_path.imaging",
+                                       "antenna.fetching_map",
+                                       "primary_path.merging",
+                                       "primary_path.planning",
+                                       "antenna.telling_path",
+                                       "scout_path.planning",
+                                       "scout_locomotion.traversing_with_ss",
+                                       "primary_locomotion.following"};
+  for (std::size_t i = 1; i < steps.size(); ++i)
+    EXPECT_TRUE(network.implies(first(steps[i - 1]).end_point, first(steps[i]).start_point,
+                                temporal::Duration{0}, temporal::no_bound))
+        << steps[i - 1] << " before " << steps[i];
+  EXPECT_TRUE(network.same_time(first("scout_locomotion.turning").start_point,
+                                first("primary_locomotion.turning").start_point));
+  const auto& decision = plan.decisions.back();
+  ASSERT_EQ(decision.choices.size(), 2U);
+  EXPECT_EQ(decision.choices[0].name, "follow");
+  EXPECT_EQ(decision.choices[1].name, "bring_back");
+}
+
+TEST(FasterModel, ALostScoutLeavesThePrimaryToTraverseAlone) {
+  const FlexiblePlan plan = checked_plan("scout_lost");
+  EXPECT_EQ(count(plan, "navigation.cycle_alone("), 11U);
+  EXPECT_EQ(count(plan, "scout_locomotion."), 0U);
+}
+
+TEST(FasterModel, EachTriggerBringsTheScoutBackAndANewCycleFollows) {
+  for (const auto& [problem, behaviour, cycles] :
+       std::vector<std::tuple<std::string, std::string, std::size_t>>{
+           {"scout_no_path", "bring_back_without_path", 12},
+           {"primary_blocked", "bring_back_to_blocked", 12},
+           {"goal_change", "bring_back_for_new_goals", 4}}) {
+    const FlexiblePlan plan = checked_plan(problem);
+    EXPECT_THAT(names(plan), Contains(behaviour));
+    EXPECT_EQ(count(plan, "scout.coming_back("), 1U) << problem;
+    EXPECT_EQ(count(plan, "navigation.team_cycle("), cycles) << problem;
+  }
+}
+
+TEST(FasterModel, WithoutAPathBothWaitForTheGroundAndReport) {
+  const FlexiblePlan plan = checked_plan("no_path");
+  EXPECT_THAT(names(plan), Contains("report_no_path"));
+  EXPECT_THAT(names(plan), Contains("antenna.downlinking(no_global_path)"));
+  EXPECT_EQ(count(plan, "primary_locomotion.") + count(plan, "scout_locomotion."), 0U);
+}
+
+TEST(FasterModel, AMarkerThatIsNotSeenAndAHazardAreMendedFirst) {
+  EXPECT_THAT(names(checked_plan("marker_not_seen")), Contains("scout_locomotion.positioning(w0)"));
+  EXPECT_THAT(names(checked_plan("hazard_detected")), Contains("avoid_hazard"));
+}
+
+// R138: each of them missing, the traverse as a team does not apply.
+TEST(FasterModel, ATraverseAsATeamNeedsFormationAndTheUplink) {
+  const auto planned = [](const std::string& component, const std::string& state) {
+    model::Model model = load("missions/faster/problem.yaml");
+    const auto c = static_cast<std::size_t>(
+        std::ranges::find(model.components, component, &model::Component::name) - model.components.begin());
+    model::Pattern& initial = *model.problem->initial[c];
+    const auto& states = model.components[c].states;
+    initial.state =
+        static_cast<model::Index>(std::ranges::find(states, state, &model::State::name) - states.begin());
+    if (state == "at") initial.terms[0].index += 2;  // w1
+    search::Search search(model, {});
+    return search.run(100'000, 0, [] { return false; });
+  };
+  EXPECT_EQ(planned("uplink", "complete"), search::Outcome::solved);
+  EXPECT_EQ(planned("uplink", "missing"), search::Outcome::exhausted);
+  EXPECT_EQ(planned("scout_locomotion", "at"), search::Outcome::exhausted);
+}
+
+// R140: way-points form a graph, neighbours at most 4 m apart; its stands lie at most as far apart as the primary sees rocks.
+TEST(FasterModel, WayPointsLieAtMostFourMetresApart) {
+  const model::Model model = load("missions/faster/problem.yaml");
+  const model::NumberTable& metres = model.numbers[0];
+  const auto is_waypoint = [&](model::Index place) {
+    return std::string("wv").find(model.objects[place].name[0]) != std::string::npos;
+  };
+  std::size_t edges = 0;
+  for (const auto& [row, length] : metres.rows) {
+    EXPECT_LE(length, 2.0);
+    if (!is_waypoint(row[0])) continue;
+    for (const auto& [next, more] : metres.rows)
+      if (next[0] == row[1] && is_waypoint(next[1]) && next[1] != row[0]) {
+        ++edges;
+        EXPECT_LE(length + more, 4.0) << model.objects[row[0]].name << " to " << model.objects[next[1]].name;
+      }
+  }
+  EXPECT_EQ(edges, 20U) << "ten ways, in both directions";
+}
+
+}  // namespace
+}  // namespace roci::planner::timeline_htn::checking

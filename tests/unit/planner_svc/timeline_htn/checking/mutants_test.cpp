@@ -1,0 +1,287 @@
+// Plans that the search makes pass the checker; one change to them, and it tells what is wrong.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+
+#include "planner_svc/timeline_htn/checking/check.hpp"
+#include "tests/unit/planner_svc/timeline_htn/checking/plans.hpp"
+#include "tests/unit/planner_svc/timeline_htn/reading/texts.hpp"
+
+namespace roci::planner::timeline_htn::checking {
+namespace {
+
+using temporal::ConstraintKind, temporal::FlexiblePlan, temporal::PlanActivity, temporal::seconds,
+    temporal::Token;
+using testing::Contains;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+PlanActivity& activity(FlexiblePlan& plan, const std::string& name) {
+  const auto found = std::ranges::find(plan.activities, name, &PlanActivity::name);
+  if (found == plan.activities.end()) throw std::runtime_error("the plan has no activity " + name);
+  return *found;
+}
+Token& token(FlexiblePlan& plan, const std::string& timeline, const std::string& value) {
+  const auto found = std::ranges::find_if(plan.tokens, [&](const Token& one) {
+    return one.timeline == timeline && temporal::to_text(one.held) == value;
+  });
+  if (found == plan.tokens.end()) throw std::runtime_error("the plan has no " + value);
+  return *found;
+}
+temporal::State& held(Token& token) { return std::get<temporal::State>(token.held); }
+
+/// Is a model with the plan for it.
+class Checked {
+ public:
+  explicit Checked(model::Model model) : model_(std::move(model)), plan_(plan_for(model_)) {}
+
+  std::vector<std::string> faults() const { return checking::faults(model_, plan_); }
+  std::vector<std::string> after(const std::function<void(FlexiblePlan&)>& harm) const {
+    FlexiblePlan plan = plan_;
+    harm(plan);
+    return checking::faults(model_, plan);
+  }
+  std::vector<std::string> under(const std::function<void(model::Model&)>& harm) const {
+    model::Model model = model_;
+    harm(model);
+    return checking::faults(model, plan_);
+  }
+
+ private:
+  model::Model model_;
+  FlexiblePlan plan_;
+};
+
+const Checked& greenhouse() {
+  static const Checked out(load("tests/missions/greenhouse/problem.yaml"));
+  return out;
+}
+
+model::Behaviour& behaviour(model::Model& model, const std::string& name) {
+  return *std::ranges::find(model.behaviours, name, &model::Behaviour::name);
+}
+
+TEST(TimelineChecker, AcceptsThePlanOfTheSearch) { EXPECT_THAT(greenhouse().faults(), IsEmpty()); }
+
+TEST(TimelineChecker, RefusesTimelinesThatAreNone) {
+  const auto& plan = greenhouse();
+  EXPECT_THAT(plan.after([](auto& p) { std::swap(p.tokens[0].held, p.tokens[1].held); }),
+              Contains(HasSubstr("it begins with")));
+  EXPECT_THAT(plan.after([](auto& p) { std::swap(p.tokens[0], p.tokens[1]); }),
+              Contains(HasSubstr("and not at the origin")));
+  EXPECT_THAT(plan.after([](auto& p) { std::erase(p.tokens, token(p, "arm", "pouring(basil, row_a)")); }),
+              Contains(HasSubstr("there is a gap")));
+  EXPECT_THAT(plan.after([](auto& p) { held(token(p, "base", "at(well)")).arguments = {"row_b"}; }),
+              Contains(HasSubstr(
+                  "timeline base: no transition leads from base.driving(dock, well) to base.at(row_b)")));
+  EXPECT_THAT(plan.after([](auto& p) {
+    held(token(p, "base", "driving(dock, well)")).arguments = {"dock", "row_b"};
+  }),
+              Contains(HasSubstr("there is no state base.driving(dock, row_b)")));
+  EXPECT_THAT(plan.after([](auto& p) {
+    held(token(p, "base", "at(well)")) = {"stuck", {"well"}};
+  }),
+              Contains(HasSubstr("the error state base.stuck(well) is planned")));
+  EXPECT_THAT(plan.after([](auto& p) { token(p, "base", "at(well)").held = true; }),
+              Contains(HasSubstr("timeline base holds true, which is no state")));
+  EXPECT_THAT(plan.after([](auto& p) { token(p, "base", "at(well)").timeline = "bass"; }),
+              Contains(HasSubstr("timeline bass")));
+  EXPECT_THAT(
+      plan.after([](auto& p) { std::erase_if(p.tokens, [](auto& t) { return t.timeline == "tank"; }); }),
+      Contains(HasSubstr("timeline tank: the plan does not have it")));
+  EXPECT_THAT(plan.under([](auto& m) { m.problem->horizon += seconds(1); }),
+              Contains(HasSubstr("not at the horizon, 1201 s")));
+}
+
+TEST(TimelineChecker, RefusesActivitiesThatAreNotTheModels) {
+  const auto& plan = greenhouse();
+  EXPECT_THAT(plan.after([](auto& p) { activity(p, "tank.filling").name = "tank.fill"; }),
+              Contains(HasSubstr("'tank.fill', is neither a state nor a behaviour")));
+  EXPECT_THAT(plan.after([](auto& p) { activity(p, "tank.filling").level = "abstract"; }),
+              Contains(HasSubstr("stands on level 'abstract', not on 'primitive'")));
+  EXPECT_THAT(
+      plan.after([](auto& p) { activity(p, "tank.filling").command_name = "empty"; }),
+      Contains(HasSubstr("its command, empty of sim_svc, is not that of its state, fill of sim_svc")));
+  EXPECT_THAT(
+      plan.after([](auto& p) { activity(p, "base.driving(dock, well)").arguments[0].value = "row_a"; }),
+      Contains(HasSubstr("the arguments of its command are not those of its state")));
+  EXPECT_THAT(plan.after([](auto& p) {
+    activity(p, "tank.draining").owner = "sim_svc", activity(p, "tank.draining").command_name = "drain";
+  }),
+              Contains(HasSubstr("its state has no command")));
+  EXPECT_THAT(plan.after([](auto& p) {
+    activity(p, "base.driving(well, row_a)").name = "base.driving(row_a, well)";
+  }),
+              Contains(HasSubstr("base.driving(row_a, well) (activity")));
+  EXPECT_THAT(plan.after([](auto& p) {
+    std::erase(p.activities, PlanActivity(activity(p, "base.driving(row_b, row_a)")));
+  }),
+              Contains(HasSubstr(
+                  "timeline base holds base.driving(row_b, row_a), and no activity of the plan is it")));
+  EXPECT_THAT(plan.after([](auto& p) { activity(p, "tank.draining").goals_served = {"x/y"}; }),
+              Contains(HasSubstr("serves 'x/y', and the problem has no such goal")));
+}
+
+TEST(TimelineChecker, RefusesDurationsThatAStateDoesNotHave) {
+  const auto& plan = greenhouse();
+  const auto network_without = [](FlexiblePlan& p, const PlanActivity& of) {
+    std::erase_if(p.constraints, [&](const auto& c) {
+      return (c.from_point == of.start_point || c.to_point == of.start_point) && c.lower > seconds(0);
+    });
+  };
+  EXPECT_THAT(
+      plan.after([&](auto& p) {
+        PlanActivity& pouring = activity(p, "arm.pouring(basil, row_a)");
+        pouring.duration_lower = seconds(19);
+        network_without(p, pouring);
+      }),
+      Contains(HasSubstr(
+          "timeline arm holds arm.pouring(basil, row_a) for 20 s to 1020 s, and it lasts 20 s to 30 s")));
+  EXPECT_THAT(
+      plan.under([](auto& m) {
+        for (auto& component : m.components)
+          for (auto& state : component.states)
+            if (state.name == "filling") state.longest[0].constant = 50;
+      }),
+      Contains(HasSubstr("timeline tank holds tank.filling for 40 s to 60 s, and it lasts 40 s to 50 s")));
+}
+
+TEST(TimelineChecker, RefusesNeedsThatEndEarly) {
+  const auto& plan = greenhouse();
+  // The arm is to be folded while the base drives: it begins to pour before the base has come.
+  EXPECT_THAT(
+      plan.under([](auto& m) {
+        auto& needs = m.components[1].states[1].needs;
+        needs[0].state = {0, 0, {}};
+      }),
+      Contains(HasSubstr(
+          "base.driving(dock, well) needs during care.idle, and no value of that timeline is always so")));
+  EXPECT_THAT(plan.under([](auto& m) { m.components[1].states[1].needs[0].kind = model::NeedKind::met_by; }),
+              Contains(HasSubstr("needs met_by arm.folded")));
+  // Without what joins the two timelines the schedule decides.
+  EXPECT_THAT(plan.after([](auto& p) {
+    const Token& filling = token(p, "tank", "filling");
+    const Token& at = token(p, "base", "at(well)");
+    std::erase_if(p.constraints, [&](const auto& c) {
+      return (c.from_point == filling.end_point && c.to_point == at.end_point) ||
+             (c.to_point == filling.end_point && c.from_point == at.end_point);
+    });
+  }),
+              Contains(HasSubstr("tank.filling needs during base.at(well)")));
+}
+
+TEST(TimelineChecker, RefusesDecompositionsThatAreNoBehaviours) {
+  const auto& plan = greenhouse();
+  EXPECT_THAT(plan.after([](auto& p) { activity(p, "tank.draining").parent = ""; }),
+              Contains(HasSubstr(
+                  "care.tending(basil) (activity a0) is decomposed by no behaviour; behaviour 'water': its "
+                  "subgoal 'drain', tank.draining is not among the parts")));
+  EXPECT_THAT(plan.after([](auto& p) { activity(p, "care.tending(mint)").name = "care.tending(basil)"; }),
+              Contains(HasSubstr("does not stand on the timeline care")));
+  EXPECT_THAT(
+      plan.under([](auto& m) { behaviour(m, "water").where[0].negated = true; }),
+      Contains(HasSubstr("behaviour 'water': the 1. of its tests ('where') does not hold for plant = basil, "
+                         "place = row_a")));
+  EXPECT_THAT(plan.under([](auto& m) {
+    auto& water = behaviour(m, "water");
+    water.constraints.push_back({{1, true}, {2, false}, {{model::Operator::constant, 0, 0, {}}}, {}});
+  }),
+              Contains(HasSubstr("the network does not imply its")));
+  EXPECT_THAT(plan.under([](auto& m) { m.behaviours.erase(m.behaviours.begin()); }),
+              Contains(HasSubstr("no behaviour achieves it")));
+  EXPECT_THAT(plan.after([](auto& p) {
+    activity(p, "care.tending(mint)").parent = activity(p, "care.tending(basil)").id;
+  }),
+              testing::Not(IsEmpty()));
+}
+
+TEST(TimelineChecker, ExecutesConditionsAndStatesToRestIn) {
+  const auto& plan = greenhouse();
+  EXPECT_THAT(plan.under([](auto& m) {
+    auto& water = behaviour(m, "water");
+    water.conditions.push_back({{3, 2, {}}, false});  // the tank is full at the start
+  }),
+              Contains(HasSubstr("behaviour 'water' asks for tank.full at its start")));
+  // 'go' stands on the timeline alone; it cannot last from before the drive to the place on.
+  EXPECT_THAT(plan.under([](auto& m) {
+    auto& water = behaviour(m, "water");
+    water.constraints.push_back({{{}, false}, {0, false}, {}, {{model::Operator::constant, 0, 0, {}}}});
+  }),
+              Contains(HasSubstr("a state to rest in that behaviour 'water' asks for does not hold")));
+}
+
+TEST(TimelineChecker, RefusesGoalsThatAreMissed) {
+  const auto& plan = greenhouse();
+  const auto goal = [&](const std::function<void(model::Goal&)>& harm, std::size_t which) {
+    return plan.under([&](auto& m) { harm(m.problem->goals[which]); });
+  };
+  EXPECT_THAT(goal([](auto& g) { g.closes = seconds(70); }, 1),
+              Contains(HasSubstr("goal 'mint_watered', care.tending(mint), is not reached")));
+  EXPECT_THAT(goal([](auto& g) { g.opens = seconds(1); }, 0), Contains(HasSubstr("goal 'basil_watered'")));
+  EXPECT_THAT(goal([](auto& g) { g.after = {1}; }, 0), Contains(HasSubstr("goal 'basil_watered'")));
+  EXPECT_THAT(goal([](auto& g) { g.state.terms[0].index = 1; }, 2),
+              Contains(HasSubstr("goal 'home', base.at(well)")));
+  EXPECT_THAT(plan.after([](auto& p) {  // nothing holds the mint within its window any more
+    std::erase_if(p.constraints, [&](const auto& c) { return c.from_point == 0 && c.upper == seconds(900); });
+  }),
+              Contains(HasSubstr("goal 'mint_watered'")));
+}
+
+TEST(TimelineChecker, WantsWhatIsTriggered) {
+  model::Model stuck = load("tests/missions/greenhouse/problem.yaml");
+  stuck.problem->initial[1]->state = 2;
+  const Checked plan(stuck);
+  EXPECT_THAT(plan.faults(), IsEmpty());
+  EXPECT_THAT(plan.after([](auto& p) {
+    const std::string id = activity(p, "free_the_base").id;
+    for (auto& one : p.activities)
+      if (one.parent == id) one.parent = "";
+    std::erase(p.activities, PlanActivity(activity(p, "free_the_base")));
+  }),
+              Contains(HasSubstr("the plan begins in base.stuck(dock), and none of the behaviours")));
+  EXPECT_THAT(plan.under([](auto& m) {
+    behaviour(m, "free_the_base").subgoals[0].state.terms[0] = {1, true};
+  }),
+              Contains(HasSubstr("its subgoal 'back_off', base.backing_off(well) is not among the parts")));
+}
+
+const Checked& with_decisions() {
+  static const Checked out(parse(reading::kSound));
+  return out;
+}
+
+TEST(TimelineChecker, HoldsDecisionsAgainstThoseOfTheBehaviour) {
+  const auto& plan = with_decisions();
+  EXPECT_THAT(plan.faults(), IsEmpty());
+  const auto decision = [&](const std::string& name,
+                            const std::function<void(temporal::DecisionPoint&)>& harm) {
+    return plan.after([&](auto& p) {
+      for (auto& one : p.decisions)
+        if (one.id.ends_with("." + name)) harm(one);
+    });
+  };
+  EXPECT_THAT(
+      plan.after(
+          [](auto& p) { std::erase_if(p.decisions, [](const auto& d) { return d.id.ends_with(".how"); }); }),
+      Contains(HasSubstr("antenna.send(status) (activity a4) does not stand on the timeline antenna")))
+      << "of no choice, so it would be planned on";
+  EXPECT_THAT(decision("how", [](auto& d) { d.choices[0].name = "c"; }),
+              Contains(HasSubstr("choice 'c' is not 'a' of the behaviour")));
+  EXPECT_THAT(decision("how", [](auto& d) { d.choices[0].rule = {}; }),
+              Contains(HasSubstr("or has another rule")));
+  EXPECT_THAT(decision("how", [](auto& d) { d.choices[0].activities.clear(); }),
+              Contains(HasSubstr("choice 'a' lacks the activity of subgoal 'tell'")));
+  EXPECT_THAT(decision("how", [](auto& d) { d.id = "nobody.how"; }),
+              Contains(HasSubstr("is of no activity")));
+  EXPECT_THAT(decision("how", [](auto& d) { d.resolver_kind = temporal::ResolverKind::ground; }),
+              Contains(HasSubstr("it is asked of somebody else")));
+  EXPECT_THAT(plan.after([](auto& p) {
+    for (auto& one : p.decisions) one.decide_before = p.activities[0].end_point;
+  }),
+              Contains(HasSubstr("it need not be made before the point that the behaviour names")));
+}
+
+}  // namespace
+}  // namespace roci::planner::timeline_htn::checking

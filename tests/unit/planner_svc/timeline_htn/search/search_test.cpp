@@ -1,0 +1,243 @@
+// How plans come about: forward in time, with the hierarchy built above the timelines (R130, R133, R134, R137).
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "core/temporal/schedule.hpp"
+#include "tests/unit/planner_svc/timeline_htn/search/plans.hpp"
+
+namespace roci::planner::timeline_htn {
+namespace {
+
+using search::Heuristic, search::Order, search::Outcome, search::Resolver;
+using temporal::FlexiblePlan, temporal::PlanActivity, temporal::seconds;
+using testing::Contains, testing::ElementsAre, testing::HasSubstr, testing::IsSupersetOf, testing::Not;
+
+const std::string kRovers = R"yaml(domain: rovers
+types: [place]
+objects: {place: [a, b, c, d]}
+relations:
+  edge: {arguments: [place, place], rows: [[a, b], [a, c], [c, d], [b, a]]}
+components:
+  mission:
+    layer: abstract
+    states:
+      idle: {kind: default}
+      visit: {kind: complex, parameters: {from: place, to: place}}
+    transitions: ["idle <-> visit(x, y)"]
+  wheels:
+    layer: primitive
+    robot: rover
+    states:
+      at: {kind: default, parameters: {place: place}}
+      drive:
+        kind: simple
+        parameters: {from: place, to: place}
+        where: ["edge(from, to)"]
+        duration_s: [10, 20]
+        command: {owner: sim, component: wheels, command: drive, arguments: {to: to, mode: slow}}
+        needs: [during arm.folded]
+        contingency: halt
+      stuck: {kind: error, parameters: {place: place}}
+      rock: {kind: simple, parameters: {place: place}, duration_s: [3, 5], command: {owner: sim, command: rock}}
+    transitions: ["at(x) -> drive(x, y)", "drive(x, y) -> at(y)", "stuck(x) -> rock(x)", "rock(x) -> at(x)"]
+  arm:
+    layer: primitive
+    states:
+      folded: {kind: default}
+      unfolding: {kind: simple, duration_s: 4, command: {owner: sim, command: unfold}}
+      out: {kind: default}
+      sampling: {kind: simple, duration_s: [5, 9], command: {owner: sim, command: sample}}
+      folding: {kind: simple, duration_s: 4, command: {owner: sim, command: fold}}
+    transitions: [folded -> unfolding, unfolding -> out, out <-> sampling, out -> folding, folding -> folded]
+)yaml";
+const std::string kBehaviours = R"yaml(behaviours:
+  last:
+    achieves: mission.visit(from, to)
+    where: ["edge(from, to)"]
+    conditions: [wheels.at(from)]
+    subgoals: {drive: "wheels.drive(from, to)", sample: arm.sampling}
+    constraints: [drive before sample]
+  on:
+    achieves: mission.visit(from, to)
+    variables: {next: place}
+    where: ["edge(from, next)", "next != to"]
+    conditions: [wheels.at(from)]
+    subgoals: {drive: "wheels.drive(from, next)", rest: "mission.visit(next, to)"}
+    constraints: [drive before rest]
+)yaml";
+const std::string kProblem = R"yaml(problem:
+  horizon_s: 500
+  initial: {mission: idle, wheels: at(a), arm: out}
+  goals: {there: "mission.visit(a, d)"}
+)yaml";
+
+const std::string& name_of(const FlexiblePlan& plan, const std::string& id) {
+  return std::ranges::find(plan.activities, id, &PlanActivity::id)->name;
+}
+
+// The hierarchy is built, not replaced: every level stands in the plan, each part under what it is a part of.
+TEST(TimelineSearch, EveryLevelStaysInThePlan) {
+  const auto result = planned(model_of({kRovers, kBehaviours, kProblem}));
+  ASSERT_EQ(result.outcome, Outcome::solved) << result.reason;
+  const auto* top = result.find("mission.visit(a, d)");
+  const auto* within = result.find("mission.visit(c, d)");
+  const auto* drive = result.find("wheels.drive(c, d)");
+  ASSERT_TRUE(top && within && drive);
+  EXPECT_EQ(top->parent, "");
+  EXPECT_EQ(top->level, "abstract");
+  EXPECT_EQ(within->parent, top->id);
+  EXPECT_EQ(name_of(*result.plan, drive->parent), "mission.visit(c, d)");
+  EXPECT_EQ(drive->level, "primitive");
+  EXPECT_EQ(drive->owner, "sim");
+  EXPECT_EQ(drive->robot, "rover");
+  EXPECT_THAT(drive->arguments,
+              ElementsAre(temporal::Property{"to", "d"}, temporal::Property{"mode", "slow"}));
+  EXPECT_EQ(drive->lateness, temporal::LatenessPolicy::deadline);
+  EXPECT_EQ(drive->contingency, "halt");
+  EXPECT_EQ(drive->duration_lower, seconds(10));
+  EXPECT_THAT(drive->goals_served, ElementsAre("there"));
+  EXPECT_TRUE(top->owner.empty());
+}
+
+// The first way leads to b, from where no other leads on: the search finds that and takes the other.
+TEST(TimelineSearch, WhereTheFirstDecompositionFailsAnotherIsFound) {
+  const auto result = planned(model_of({kRovers, kBehaviours, kProblem}));
+  ASSERT_EQ(result.outcome, Outcome::solved);
+  EXPECT_THAT(result.names(), Contains("wheels.drive(a, c)"));
+  EXPECT_THAT(result.names(), Not(Contains("wheels.drive(a, b)")));
+  EXPECT_GT(result.count.refused + result.count.repeated, 0U);
+}
+
+TEST(TimelineSearch, WhatAValueNeedsOfOthersIsBroughtAbout) {
+  const auto result = planned(model_of({kRovers, kBehaviours, kProblem}));
+  ASSERT_EQ(result.outcome, Outcome::solved);
+  EXPECT_THAT(result.names(), IsSupersetOf({"arm.folding", "arm.unfolding", "arm.sampling"}));
+}
+
+TEST(TimelineSearch, OtherBehavioursMakeAnotherPlan) {
+  const std::string with_look = with(kBehaviours, "subgoals: {drive: \"wheels.drive(from, next)\"",
+                                     "subgoals: {look: arm.sampling, drive: \"wheels.drive(from, next)\"");
+  const auto one = planned(model_of({kRovers, kBehaviours, kProblem}));
+  const auto other = planned(model_of({kRovers, with_look, kProblem}));
+  ASSERT_TRUE(one.plan && other.plan);
+  EXPECT_EQ(std::ranges::count(one.names(), "arm.sampling"), 1);
+  EXPECT_EQ(std::ranges::count(other.names(), "arm.sampling"), 2);
+}
+
+TEST(TimelineSearch, OfTwoBehavioursTheOneOfHigherPriorityComesFirst) {
+  const std::string two =
+      kBehaviours +
+      "  fast: {achieves: \"mission.visit(from, to)\", priority: 5, where: [\"edge(from, to)\"], "
+      "subgoals: {drive: \"wheels.drive(from, to)\"}}\n";
+  const std::string near = with(kProblem, "mission.visit(a, d)", "mission.visit(a, c)");
+  EXPECT_THAT(planned(model_of({kRovers, two, near})).names(), Not(Contains("arm.sampling")));
+  EXPECT_THAT(planned(model_of({kRovers, with(two, "priority: 5", "priority: -5"), near})).names(),
+              Contains("arm.sampling"));
+}
+
+TEST(TimelineSearch, AGoalOfEitherLayerIsReached) {
+  const auto result =
+      planned(model_of({kRovers, kBehaviours, with(kProblem, "mission.visit(a, d)", "wheels.at(c)")}));
+  ASSERT_EQ(result.outcome, Outcome::solved) << result.reason;
+  EXPECT_THAT(result.names(), ElementsAre("wheels.drive(a, c)", "arm.folding"));
+}
+
+TEST(TimelineSearch, GoalsComeInTheirOrder) {
+  const std::string two =
+      with(kProblem, "goals: {there: \"mission.visit(a, d)\"}",
+           "goals: {late: {state: wheels.at(d), after: [there]}, there: \"wheels.at(b)\"}");
+  const auto result = planned(model_of({kRovers, kBehaviours, two}));
+  ASSERT_EQ(result.outcome, Outcome::solved) << result.reason;
+  EXPECT_THAT(result.names(), IsSupersetOf({"wheels.drive(a, b)", "wheels.drive(b, a)", "wheels.drive(a, c)",
+                                            "wheels.drive(c, d)"}));
+}
+
+// The behaviour that an error triggers comes first, and the goals after it.
+TEST(TimelineSearch, AnErrorLeadsToTheBehaviourThatMendsIt) {
+  const std::string mend =
+      kBehaviours +
+      "  free: {triggers: [wheels.stuck(place)], subgoals: {rock: wheels.rock(place), stand: "
+      "wheels.at(place)}, constraints: [rock meets stand]}\n";
+  const std::string stuck = with(kProblem, "wheels: at(a)", "wheels: stuck(a)");
+  const auto result = planned(model_of({kRovers, mend, stuck}));
+  ASSERT_EQ(result.outcome, Outcome::solved) << result.reason;
+  const auto* rock = result.find("wheels.rock(a)");
+  ASSERT_TRUE(rock && result.find("free"));
+  EXPECT_EQ(rock->parent, result.find("free")->id);
+  const auto times =
+      temporal::earliest_schedule(result.plan->point_count, temporal::all_constraints(*result.plan));
+  EXPECT_GE((*times)[result.find("mission.visit(a, d)")->start_point],
+            (*times)[result.find("free")->end_point]);
+}
+
+TEST(TimelineSearch, WhatCannotBeIsProvedWithItsReason) {
+  const auto reason = [](const std::string& behaviours, const std::string& problem) {
+    const auto result = planned(model_of({kRovers, behaviours, problem}));
+    EXPECT_EQ(result.outcome, Outcome::exhausted);
+    return result.reason;
+  };
+  EXPECT_THAT(reason(kBehaviours,
+                     with(kProblem, "mission.visit(a, d)", "wheels.at(a)\", \"x\": \"mission.visit(d, a)")),
+              HasSubstr("no behaviour achieves mission.visit(d, a) with these objects"));
+  EXPECT_THAT(reason(kBehaviours, with(kProblem, "horizon_s: 500", "horizon_s: 20")),
+              HasSubstr("time does not permit"));
+  EXPECT_THAT(
+      reason(
+          with(kBehaviours, "conditions: [wheels.at(from)]\n    subgoals: {drive: \"wheels.drive(from, to)",
+               "conditions: [not wheels.at(from)]\n    subgoals: {drive: \"wheels.drive(from, to)"),
+          with(with(kProblem, "mission.visit(a, d)", "mission.visit(c, d)"), "at(a)", "at(c)")),
+      HasSubstr("behaviour 'last' for mission.visit(c, d) asks for not wheels.at(from), and the timeline"));
+  EXPECT_THAT(reason(kBehaviours, with(kProblem, "wheels: at(a)", "wheels: at(d)")),
+              HasSubstr("wheels.at(from)"));
+}
+
+// A node's next value is the one that may start the earliest, and each timeline grows at its end.
+TEST(TimelineSearch, GoesForwardInTime) {
+  const model::Model model = model_of({text_of_file("tests/missions/greenhouse/domain.yaml"),
+                                       text_of_file("tests/missions/greenhouse/behaviours.yaml"),
+                                       with(text_of_file("tests/missions/greenhouse/problem.yaml"),
+                                            "include: [domain.yaml, behaviours.yaml]", "")});
+  search::Search search(model, {});
+  ASSERT_EQ(search.run(100'000, 0, [] { return false; }), Outcome::solved);
+  const auto& plan = search.plan();
+  for (const auto& token : plan.tokens()) {
+    if (token.before == search::kNone) continue;
+    const auto& before = plan.tokens()[token.before];
+    EXPECT_EQ(before.end, token.start);
+    EXPECT_GE(plan.network().earliest(token.start), plan.network().earliest(before.start));
+  }
+}
+
+TEST(TimelineSearch, EachHeuristicAndOrderFindsAPlan) {
+  const model::Model model = model_of({kRovers, kBehaviours, kProblem});
+  for (const Heuristic heuristic : {Heuristic::blind, Heuristic::relaxed_plan, Heuristic::landmarks})
+    for (const Order order : {Order::first_declared, Order::last_declared})
+      EXPECT_EQ(planned(model, {heuristic, order}).outcome, Outcome::solved);
+}
+
+TEST(TimelineSearch, BudgetsEndIt) {
+  const model::Model model = model_of({kRovers, kBehaviours, kProblem});
+  search::Search search(model, {});
+  EXPECT_EQ(search.run(3, 0, [] { return false; }), Outcome::searching);
+  EXPECT_EQ(search.count().evaluated, 3U);
+  EXPECT_EQ(search.run(100'000, 0, [] { return false; }), Outcome::solved);
+  search::Search small(model, {});
+  EXPECT_EQ(small.run(100'000, 10, [] { return false; }), Outcome::out_of_memory);
+  search::Search cancelled(model, {});
+  EXPECT_EQ(cancelled.run(100'000, 0, [] { return true; }), Outcome::cancelled);
+}
+
+// What is taken back leaves nothing behind: going on in slices gives the same plan.
+TEST(TimelineSearch, ResumedItFindsTheSamePlan) {
+  const model::Model model = model_of({kRovers, kBehaviours, kProblem});
+  search::Search slices(model, {});
+  for (std::uint64_t work = 1; slices.run(work, 0, [] { return false; }) == Outcome::searching;) ++work;
+  EXPECT_EQ(extraction::plan_of(slices, {"plan", "a", temporal::Time{0}}), *planned(model).plan);
+}
+
+}  // namespace
+}  // namespace roci::planner::timeline_htn
