@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "planner_svc/utility_htn/cycle/early_end.hpp"
-#include "planner_svc/utility_htn/flattening/reach.hpp"
 #include "planner_svc/utility_htn/search/robust.hpp"
 
 namespace roci::planner::utility_htn::cycle {
@@ -17,9 +16,6 @@ using temporal::timelines::Index;
 namespace {
 
 bool waits(const Link& link) { return link.stage == Stage::planned || link.stage == Stage::committed; }
-
-// Returns whether the timelines hold it.
-bool is_placed(const Link& link) { return !is_over(link.stage) && link.stage != Stage::doomed; }
 
 // Nothing is expected to be later than it is by more than this.
 constexpr Duration kFarthestExpectation = std::chrono::hours(1);
@@ -121,38 +117,6 @@ void Cycle::doom(TaskId failed) {
   }
 }
 
-// A contingency edits the network (R69).
-void Cycle::edit_network(TaskIndex task) {
-  const auto& contingency = network_.tasks[task].contingency;
-  if (!contingency) return;
-  for (const TaskIndex one : contingency->requests) request(one);
-  for (const TaskIndex one : contingency->withdraws) withdraw(one);
-}
-
-void Cycle::request(TaskIndex task) {
-  const bool again = past_.done.erase(task) != 0;
-  failures_.erase(task);
-  past_.withdrawn.erase(task);
-  to_schedule_ |= requested_.insert(task).second || again;
-}
-
-// Templates are nobody's request until somebody asks.
-void Cycle::give_up(TaskIndex task) {
-  requested_.erase(task);
-  if (is_request(network_.tasks[task])) past_.withdrawn.insert(task);
-}
-
-void Cycle::withdraw(TaskIndex task) {
-  if (!requested_.contains(task)) return;
-  give_up(task);
-  for (std::size_t i = blocks_.size(); i-- > 0;) {
-    if (chains_.chains[blocks_[i].chain].task != task || blocks_[i].begun()) continue;
-    take_out(blocks_[i]);
-    blocks_.erase(blocks_.begin() + static_cast<std::ptrdiff_t>(i));
-  }
-  to_optimize_ = true;
-}
-
 std::string Cycle::set_value(model::ParameterIndex parameter, double value) {
   const model::Parameter& known = network_.parameters[parameter];
   if (!known.permits(value))
@@ -192,40 +156,6 @@ void Cycle::resume(const Past& past, std::vector<Block> blocks, std::uint32_t la
   blocks_ = std::move(blocks);
   for (const Block& one : blocks_) put_in(one);
   to_schedule_ = to_optimize_ = true;
-}
-
-std::vector<TaskIndex> Cycle::waiting() const {
-  std::set<TaskIndex> placed;
-  for (const Block& one : blocks_) placed.insert(chains_.chains[one.chain].task);
-  std::vector<TaskIndex> out;
-  for (const TaskIndex task : requested_)
-    if (!placed.contains(task) && !past_.done.contains(task)) out.push_back(task);
-  return out;
-}
-
-std::vector<TaskIndex> Cycle::closed(Time now) const {
-  const std::vector<TaskIndex> open = waiting();
-  return closed_but({open.begin(), open.end()}, now);
-}
-
-// What is placed is open, too.
-std::vector<TaskIndex> Cycle::closed_but(std::set<TaskIndex> open, Time now) const {
-  const std::vector<double> newest = values_now(now);
-  flattening::Prospects prospects{newest, open};
-  std::set<TaskIndex> placed;
-  for (const Block& one : blocks_) {
-    placed.insert(chains_.chains[one.chain].task);
-    for (const Link& each : one.links)
-      if (is_placed(each)) prospects.under_way.push_back(each.task);
-  }
-  for (const TaskIndex task : flattening::out_of_reach(network_, chains_, past_.values, prospects))
-    open.erase(task);
-  std::vector<TaskIndex> out;
-  for (const flattening::Chain& chain : chains_.chains)
-    if (!open.contains(chain.task) && !placed.contains(chain.task) &&
-        (out.empty() || out.back() != chain.task))
-      out.push_back(chain.task);
-  return out;
 }
 
 Report Cycle::run(Time now) {
@@ -441,17 +371,6 @@ std::vector<double> Cycle::values_now(Time now) const {
 
 temporal::timelines::Footprint Cycle::footprint(const Block& block, std::size_t link) const {
   return flattening::footprint(network_, chains_.chains[block.chain], link, past_.values);
-}
-
-// Returns the requests that wait and whose preferred start lies within the scheduling window (R79).
-std::set<TaskIndex> Cycle::candidates(Time now) const {
-  const Time until = temporal::plus(now, network_.cycle.scheduling_window);
-  std::set<TaskIndex> out;
-  for (const TaskIndex task : waiting()) {
-    const Time preferred = network_.tasks[task].preferred_start;
-    if (!temporal::bounded(preferred) || preferred < until) out.insert(task);
-  }
-  return out;
 }
 
 std::vector<const Block*> Cycle::by_start() const {

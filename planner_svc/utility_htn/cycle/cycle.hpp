@@ -42,15 +42,15 @@ struct Report {
   std::vector<Activity> done;  ///< in their order; those that had nothing to do are not named
   std::uint64_t explored = 0;  ///< entries that searches took from their queues
   bool changed = false;        ///< the placements are others than before
-  std::vector<std::string>
-      notes;  ///< what was dropped or withdrawn, and what is planned no longer, and why, in words
+  /// Say what was dropped or withdrawn, and what is planned no longer, and why, in words.
+  std::vector<std::string> notes;
 };
 
 /// Is what outlives the process: with it and the blocks that are executed a cycle goes on as before.
 struct Past {
   std::set<model::TaskIndex> done{};  ///< requests that need not come again
-  std::set<model::TaskIndex>
-      withdrawn{};  ///< requests of the network that nobody asks for any more, as what failed too often
+  /// Are requests of the network that nobody asks for any more, as what failed too often.
+  std::set<model::TaskIndex> withdrawn{};
   model::Values values{};          ///< as learned
   std::vector<double> internal{};  ///< by timeline: values of those that nobody reports
   friend bool operator==(const Past&, const Past&) = default;

@@ -35,6 +35,9 @@ struct Link {
   friend bool operator==(const Link&, const Link&) = default;
 };
 
+/// Returns whether the timelines hold the link.
+constexpr bool is_placed(const Link& link) { return !is_over(link.stage) && link.stage != Stage::doomed; }
+
 /// Is a chain as it was placed. Its number is never used again.
 struct Block {
   std::uint32_t number = 0;

@@ -64,8 +64,8 @@ struct Problem {
   std::span<const double> timelines_now{};  ///< newest values, by timeline Index; for the Assessor
   std::span<const assessor::ExistingProduct> products{};
   std::vector<Placed> committed{};  ///< chains that are placed in `anchored`, begun or not
-  std::optional<PlannedData>
-      standing{};  ///< what `committed` generates and sends at its real times; none: as the network says
+  /// Is what `committed` generates and sends at its real times; none: as the network says.
+  std::optional<PlannedData> standing{};
   std::vector<model::TaskIndex> closed{};    ///< requests that are done, failed for good or withdrawn
   temporal::timelines::TaskId first_id = 0;  ///< see task_id()
   DownlinkQuestion downlink{};               ///< none: every product gets its downlink
