@@ -50,11 +50,9 @@ TEST(SoilSensor, SaysNoGoWhereItMeasuresAndNotBefore) {
   EXPECT_FALSE(no_go->expected.bears);
 }
 
-TEST(SoilSensor, MeasuresUnderTheWheelsOfEitherSide) {
+TEST(SoilSensor, MeasuresBesideTheBodyToItsLeft) {
   SoilSensorSettings settings = bevameter();
-  settings.instruments.push_back(settings.instruments[0]);
   settings.instruments[0].beside_m = 0.5;
-  settings.instruments[1].beside_m = -0.5;
   world::RandomStream noise(1, "soil");
   const std::vector<MarkedDisc> known;
   const auto at_y = [&](double y, double heading) {
@@ -63,8 +61,10 @@ TEST(SoilSensor, MeasuresUnderTheWheelsOfEitherSide) {
   };
   ASSERT_TRUE(at_y(17.6, 0));  // the trap begins at 18, to the left of who drives east
   EXPECT_NEAR(at_y(17.6, 0)->at.y, 18.1, 1e-9);
-  EXPECT_NEAR(at_y(22.4, 0)->at.y, 21.9, 1e-9);
   EXPECT_FALSE(at_y(17.4, 0));
+  EXPECT_FALSE(at_y(17.6, std::numbers::pi)) << "of who drives west it is to the right";
+  ASSERT_TRUE(at_y(22.4, std::numbers::pi));
+  EXPECT_NEAR(at_y(22.4, std::numbers::pi)->at.x, 29.9, 1e-9);
 }
 
 TEST(SoilSensor, JudgesByTheFootingOfTheVehicleThatIsToFollow) {
