@@ -11,6 +11,7 @@ using model::StateKind, model::Term;
 namespace {
 
 constexpr int kTokensLookedBack = 4;
+constexpr int kMostNestedNeeds = 64;  // states that need each other would go on for ever
 
 }  // namespace
 
@@ -224,6 +225,13 @@ void Successors::needs(const PartialPlan& plan, const Urgent& item, std::vector<
     for (const StateId goal : ground_->reachable(plan.current_state(component), need.state, variables))
       if (goal != plan.current_state(component))
         out.push_back({StepKind::need_path, item.subject, goal, item.need});
+  // A simple state that holds at another time may be left and come again.
+  const StateId held = plan.current_state(component);
+  int nested = 0;
+  for (const Urgent* one = &item; one != nullptr; one = plan.below(*one)) ++nested;
+  if (ground_->at(held).kind == StateKind::simple && nested <= kMostNestedNeeds &&
+      ground_->fits(held, need.state, variables))
+    out.push_back({StepKind::need_path, item.subject, held, item.need});
   Index token = plan.tokens()[current].before;
   for (int back = 0; back < kTokensLookedBack && token != kNone; ++back, token = plan.tokens()[token].before)
     here(token);
