@@ -4,6 +4,8 @@
 
 #include "planner_svc/temporal_pddl/adapter/pddl_engine.hpp"
 #include "planner_svc/temporal_pddl/checker/pddl_checker.hpp"
+#include "planner_svc/timeline_htn/adapter/timeline_engine.hpp"
+#include "planner_svc/timeline_htn/checking/timeline_checker.hpp"
 #include "planner_svc/utility_htn/adapter/utility_engine.hpp"
 #include "planner_svc/utility_htn/checking/utility_checker.hpp"
 #include "planner_svc/utility_htn/reading/load.hpp"
@@ -15,6 +17,9 @@ const engine::Table& engines() {
       {"temporal_pddl",
        {engine::MakeAnswering([] { return std::make_unique<temporal_pddl::adapter::PddlEngine>(); }),
         [] { return std::make_unique<temporal_pddl::checker::PddlChecker>(); }}},
+      {"timeline_htn",
+       {engine::MakeAnswering([] { return std::make_unique<timeline_htn::adapter::TimelineEngine>(); }),
+        [] { return std::make_unique<timeline_htn::checking::TimelineChecker>(); }}},
       {"utility_htn",
        {engine::MakeStepped([](const engine::Setup& setup) {
           return std::make_unique<utility_htn::adapter::UtilityEngine>(

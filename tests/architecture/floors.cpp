@@ -38,9 +38,9 @@ const std::vector<House> kHouses = {
     {"dedicated_svc/", {"dedicated_svc/methods/", "dedicated_svc/method_run/", "dedicated_svc/"}},
     {"planner_svc/timeline_htn/",
      {"planner_svc/timeline_htn/model/", "planner_svc/timeline_htn/reading/",
-      "planner_svc/timeline_htn/checking/", "planner_svc/timeline_htn/search/",
-      "planner_svc/timeline_htn/extraction/", "planner_svc/timeline_htn/adapter/",
-      "planner_svc/timeline_htn/cli/", "planner_svc/timeline_htn/"}},
+      "planner_svc/timeline_htn/request/", "planner_svc/timeline_htn/checking/",
+      "planner_svc/timeline_htn/search/", "planner_svc/timeline_htn/extraction/",
+      "planner_svc/timeline_htn/adapter/", "planner_svc/timeline_htn/cli/", "planner_svc/timeline_htn/"}},
     {"sim_svc/",
      {"sim_svc/world/", "sim_svc/setup/", "sim_svc/components/", "sim_svc/scenario/", "sim_svc/"}},
 };

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
-#include "planner_svc/timeline_htn/adapter/problem_of.hpp"
 #include "planner_svc/timeline_htn/extraction/plan_of.hpp"
 #include "planner_svc/timeline_htn/model/check.hpp"
 #include "planner_svc/timeline_htn/reading/load.hpp"
+#include "planner_svc/timeline_htn/request/problem_of.hpp"
 
 namespace roci::planner::timeline_htn::adapter {
 
@@ -24,10 +24,11 @@ engine::BlockingGoal blocking(const std::string& key, const std::string& timelin
   return {key.substr(0, slash), slash == std::string::npos ? "" : key.substr(slash + 1), timeline, reason};
 }
 
-Answer misfitting(const std::vector<Misfit>& misfits) {
-  const bool whole = std::ranges::any_of(misfits, [](const Misfit& one) { return one.goal.empty(); });
+Answer misfitting(const std::vector<request::Misfit>& misfits) {
+  const bool whole =
+      std::ranges::any_of(misfits, [](const request::Misfit& one) { return one.goal.empty(); });
   Answer out = engine::without_plan(whole ? Verdict::invalid_input : Verdict::unsolvable, "");
-  for (const Misfit& one : misfits) {
+  for (const request::Misfit& one : misfits) {
     out.reason +=
         (out.reason.empty() ? "" : "\n") + (one.goal.empty() ? "" : "goal '" + one.goal + "': ") + one.what;
     if (!one.goal.empty()) out.blocking.push_back(blocking(one.goal, "", one.what));
@@ -92,12 +93,10 @@ Answer answer_of(const Request& request, const Model& model, const Resolution& r
 }  // namespace
 
 Answer TimelineEngine::answer(const Request& request, const Limits& limits, FunctionSource&) {
-  std::vector<reading::Text> texts{{"model", request.model}};
-  if (!request.problem_text.empty()) texts.push_back({"problem", request.problem_text});
   mission::Findings findings;
-  std::optional<Model> model = reading::parse_model(texts, findings, reading::Problem::of_a_request);
+  std::optional<Model> model = request::read_model(request, findings);
   if (!model) return engine::without_plan(Verdict::invalid_input, reading::errors_of(findings));
-  const std::vector<Misfit> misfits = put_request(request, *model);
+  const std::vector<request::Misfit> misfits = request::put_request(request, *model);
   if (!misfits.empty()) return misfitting(misfits);
   const std::vector<model::Fault> faults = model::check(*model);
   if (!model::usable(faults)) return faulty(faults, *model);

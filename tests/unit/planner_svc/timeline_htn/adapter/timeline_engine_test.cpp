@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "planner_svc/timeline_htn/checking/timeline_checker.hpp"
 #include "tests/unit/planner_svc/timeline_htn/search/plans.hpp"
 
 namespace roci::planner::timeline_htn::adapter {
@@ -52,6 +53,17 @@ TEST(TimelineEngine, PlansFromWhatIsObserved) {
     EXPECT_NE(activity.name, "tank.filling");  // it is full
   }
   EXPECT_GT(out.statistics.evaluated, 0U);
+}
+
+TEST(TimelineEngine, ItsPlansPassItsCheckerAndOthersDoNot) {
+  const Request request = greenhouse();
+  const Answer out = answer(request);
+  ASSERT_TRUE(out.plan);
+  const checking::TimelineChecker checker;
+  EXPECT_THAT(checker.faults({request, {}, *out.plan}), testing::IsEmpty());
+  temporal::FlexiblePlan shorter = *out.plan;
+  shorter.tokens.pop_back();
+  EXPECT_THAT(checker.faults({request, {}, shorter}), testing::Not(testing::IsEmpty()));
 }
 
 TEST(TimelineEngine, AGoalMayBeAnObservedValue) {

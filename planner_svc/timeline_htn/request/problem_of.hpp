@@ -1,19 +1,24 @@
 // A request as the engine's own problem: where the components are by what is observed, and what is asked for.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "core/mission/findings.hpp"
 #include "planner_svc/engine/request.hpp"
 #include "planner_svc/timeline_htn/model/model.hpp"
 
-namespace roci::planner::timeline_htn::adapter {
+namespace roci::planner::timeline_htn::request {
 
 /// Says why a request is none for this model: the goal that is meant, or none.
 struct Misfit {
   std::string goal;  ///< "issuer/id"; empty: the request as a whole
   std::string what;  ///< with its remedy
 };
+
+/// Reads the texts of a request: `model`, and `problem_text` where there is one. The problem is not checked.
+std::optional<model::Model> read_model(const engine::Request& request, mission::Findings& findings);
 
 /// Puts what the request says in place of the model's own problem: objects of types that the model knows, the states of components whose
 /// timelines are observed, goals with their windows from the origin. A component that is not observed begins where the problem of the
@@ -23,4 +28,4 @@ struct Misfit {
 /// which a component's states are observed. Returns what does not fit; with nothing the model has a problem that can be checked.
 std::vector<Misfit> put_request(const engine::Request& request, model::Model& model);
 
-}  // namespace roci::planner::timeline_htn::adapter
+}  // namespace roci::planner::timeline_htn::request

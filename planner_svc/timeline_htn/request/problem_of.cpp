@@ -1,12 +1,12 @@
-#include "planner_svc/timeline_htn/adapter/problem_of.hpp"
+#include "planner_svc/timeline_htn/request/problem_of.hpp"
 
 #include <algorithm>
 #include <cstdlib>
 #include <optional>
 
-#include "planner_svc/timeline_htn/model/evaluate.hpp"
+#include "planner_svc/timeline_htn/reading/load.hpp"
 
-namespace roci::planner::timeline_htn::adapter {
+namespace roci::planner::timeline_htn::request {
 
 using engine::Request;
 using model::GroundState, model::Index, model::Model, model::Pattern, model::StateKind, model::Term;
@@ -156,6 +156,12 @@ void put_goal(const Request& request, const engine::Goal& goal, Model& model, st
 
 }  // namespace
 
+std::optional<Model> read_model(const Request& request, mission::Findings& findings) {
+  std::vector<reading::Text> texts{{"model", request.model}};
+  if (!request.problem_text.empty()) texts.push_back({"problem", request.problem_text});
+  return reading::parse_model(texts, findings, reading::Problem::of_a_request);
+}
+
 std::vector<Misfit> put_request(const Request& request, Model& model) {
   std::vector<Misfit> misfits;
   put_objects(request, model);
@@ -170,4 +176,4 @@ std::vector<Misfit> put_request(const Request& request, Model& model) {
   return misfits;
 }
 
-}  // namespace roci::planner::timeline_htn::adapter
+}  // namespace roci::planner::timeline_htn::request
