@@ -74,7 +74,7 @@ def flights_section(records: list[Record]) -> str:
     if some:
         less = [one for one in some if one.flight.utility() < 0.9 * one.knowing.utility()]
         out += (f"\nAgainst the same flight with a planner that knows (`europa_knowing.py` says what it is told): **{share(records)}**; below 90 % in "
-                f"{len(less)} of {len(some)} flights ({examples([one.scenario.seed for one in less])}), above 100 % in "
+                f"{len(less)} of {len(some)} flights{' (' + examples([one.scenario.seed for one in less]) + ')' if less else ''}, above 100 % in "
                 f"{sum(one.flight.utility() > one.knowing.utility() for one in some)}. The one that knows is no bound: it plans with the same engine, and is "
                 "told nothing of failures, hollow successes, collapses, drops and hidden views.\n")
     samples = Counter(one.samples_home for one in flights)

@@ -110,6 +110,20 @@ class Extraction {
     out.retries = definition.retries;
     if (definition.command) fill_command(*definition.command, state, out);
     fill_conditions(one, out);
+    if (one.token != kNone) fill_impacts(one, out);
+  }
+
+  // What is seen of its timeline while it lasts, and of the default state behind it: who looks ahead finds there what brings a value
+  // about, and the executive keeps the timelines that nobody observes.
+  void fill_impacts(const Activity& one, PlanActivity& out) const {
+    const auto add = [&](StateId state, temporal::ImpactWhen moment) {
+      const auto& observed = ground_.definition(state).observed;
+      if (observed)
+        out.impacts.push_back({observed->timeline, temporal::ImpactKind::assign, moment, observed_value(state)});
+    };
+    add(one.state, temporal::ImpactWhen::at_start);
+    const StateId after = next_state(one.token);
+    if (after != kNone && ground_.at(after).kind == StateKind::resting) add(after, temporal::ImpactWhen::at_end);
   }
 
   void fill_command(const model::Command& command, const model::GroundState& state, PlanActivity& out) const {

@@ -484,8 +484,11 @@ bool Cycle::end_with_budget(Time now, Report& report) {
   report.notes.push_back("the budget does not last to the end of the mission: it is planned to " +
                          temporal::to_text(plan_end_));
   std::vector<std::uint32_t> beyond;
-  for (const Block& other : blocks_)
-    if (!other.begun() && other.links.back().end > plan_end_) beyond.push_back(other.number);
+  for (const Block& other : blocks_) {
+    const model::Task& last = network_.tasks[other.links.back().task];
+    const bool from_outside = last.fixed && last.commands.empty();
+    if (!other.begun() && !from_outside && other.links.back().end > plan_end_) beyond.push_back(other.number);
+  }
   for (const std::uint32_t number : beyond) drop(*block(number), "the mission ends before", report);
   to_schedule_ = to_optimize_ = true;
   return true;

@@ -64,7 +64,10 @@ std::vector<Link> ChainTable::make_links(std::uint32_t index) const {
     link.footprint = flattening::footprint(problem_.network, chain(index), out.size() - 1, problem_.values);
     link.shortest_gap = subtask.shortest_gap;
     link.longest_gap = subtask.longest_gap;
-    const Time latest_end = std::min({task.closes, asked.closes, problem_.until});
+    // What comes from outside, as a view of Earth, does not end with the budget.
+    const bool from_outside = task.fixed && task.commands.empty();
+    const Time end = from_outside ? problem_.network.cycle.plan_end : problem_.until;
+    const Time latest_end = std::min({task.closes, asked.closes, end});
     link.starts = {std::max({problem_.from, task.opens, asked.opens}),
                    plus(latest_end, -link.footprint.duration)};
     const bool first = out.size() == 1;

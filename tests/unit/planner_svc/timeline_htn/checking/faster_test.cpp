@@ -123,7 +123,7 @@ TEST(FasterModel, ATraverseAsATeamNeedsFormationAndTheUplink) {
     model::Pattern& initial = *model.problem->initial[c];
     const auto& states = model.components[c].states;
     initial.state =
-        static_cast<Index>(std::ranges::find(states, state, &model::State::name) - states.begin());
+        static_cast<model::Index>(std::ranges::find(states, state, &model::State::name) - states.begin());
     if (state == "at") initial.terms[0].index += 2;  // w1
     search::Search search(model, {});
     return search.run(100'000, 0, [] { return false; });
@@ -137,7 +137,7 @@ TEST(FasterModel, ATraverseAsATeamNeedsFormationAndTheUplink) {
 TEST(FasterModel, WayPointsLieAtMostFourMetresApart) {
   const model::Model model = load("missions/faster/problem.yaml");
   const model::NumberTable& metres = model.numbers[0];
-  const auto is_waypoint = [&](Index place) {
+  const auto is_waypoint = [&](model::Index place) {
     return std::string("wv").find(model.objects[place].name[0]) != std::string::npos;
   };
   std::size_t edges = 0;

@@ -309,6 +309,29 @@ TEST_F(CycleTest, WhereTheBudgetDoesNotLastTheMissionEndsBefore) {
   EXPECT_THAT(cycle.past().done, Contains(chains_.chains[load.chain].task));
 }
 
+// A view of Earth does not end with the battery; a plan without it would take what is in view for what stays so.
+TEST_F(CycleTest, WhatComesFromOutsideOutlastsTheEarlyEnd) {
+  model::Task sky;
+  sky.id = sky.name = "sky";
+  sky.fixed = true;
+  sky.preferred_start = 100s;
+  sky.duration = {400};
+  network_.tasks.push_back(sky);
+  Cycle cycle = make();
+  cycle.run(Time{0});
+  const Block load = block_of_request(cycle, "idle");
+  const Time start = load.links.front().start;
+  cycle.run(start);
+  cycle.begun(task_id(load.number, 0), start);
+  cycle.observe(testing::kBattery, start, 200);
+  const Report report = cycle.run(start + 10s);
+  ASSERT_THAT(report.notes, Contains(HasSubstr("does not last")));
+  EXPECT_THAT(requests(cycle), Contains("sky"));
+  cycle.doubt();
+  cycle.run(start + 20s);
+  EXPECT_THAT(requests(cycle), Contains("sky"));
+}
+
 // What was left for being there is planned with in the same way when that end has come: half of it, and so on.
 TEST_F(CycleTest, WhatIsLeftOfTheBudgetAtThatEndIsPlannedWith) {
   Cycle cycle = make();
