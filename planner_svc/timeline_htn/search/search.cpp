@@ -133,10 +133,11 @@ bool Search::next_pass() {
   return state_ == Outcome::searching;
 }
 
+// Keeps what was met farthest. The first pass tells it best: later ones try what nobody would mean.
 void Search::note(const Obstacle& obstacle) {
   if (obstacle.kind == Obstacle::Kind::none) return;
   const std::size_t depth = path_.size();
-  if (obstacle_.kind != Obstacle::Kind::none && depth <= farthest_) return;
+  if (obstacle_.kind != Obstacle::Kind::none && (pass_ > 0 || depth <= farthest_)) return;
   farthest_ = depth;
   obstacle_ = obstacle;
 }

@@ -219,11 +219,19 @@ void Successors::needs(const PartialPlan& plan, const Urgent& item, std::vector<
   const Index current = plan.current(component);
   here(current);
   const Index running = plan.tokens()[current].activity;
-  if (running == kNone || plan.complete(running) ||
-      ground_->at(plan.tokens()[current].state).kind != StateKind::complex)
+  const bool free_to_go = running == kNone || plan.complete(running) ||
+                          ground_->at(plan.tokens()[current].state).kind != StateKind::complex;
+  if (free_to_go)
     for (const StateId goal : ground_->reachable(plan.current_state(component), need.state, variables))
       if (goal != plan.current_state(component))
         out.push_back({StepKind::need_path, item.subject, goal, item.need});
+  // Where the state that holds fits, but not at that time, it may be left and come again.
+  const StateId held = plan.current_state(component);
+  const bool comes_again = ground_->fits(held, need.state, variables) && free_to_go &&
+                           std::ranges::any_of(std::vector<StateId>(ground_->next(held)), [&](StateId after) {
+                             return ground_->distance(after, held) != kNone;
+                           });
+  if (comes_again) out.push_back({StepKind::need_path, item.subject, held, item.need});
   Index token = plan.tokens()[current].before;
   for (int back = 0; back < kTokensLookedBack && token != kNone; ++back, token = plan.tokens()[token].before)
     here(token);
