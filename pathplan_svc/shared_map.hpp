@@ -30,8 +30,8 @@ struct FoundObstacle {
 struct MapPatch {
   std::string author;  ///< service
   std::string robot;   ///< that the author belongs to
-  std::pair<std::uint32_t, std::uint64_t>
-      number;  ///< incarnation and sequence: which of two of an author is the newer one
+  /// Incarnation and sequence: which of two of an author is the newer one.
+  std::pair<std::uint32_t, std::uint64_t> number;
   std::vector<FoundObstacle> obstacles;
 };
 

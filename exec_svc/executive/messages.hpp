@@ -74,8 +74,8 @@ struct AnswerResult {
 /// Holds what happened since the last step. Each list is in the order of events.
 struct Inputs {
   std::vector<Observation> observations{};
-  std::vector<Observation>
-      settings{};  ///< values that the ground has set: what activities make of them later counts
+  /// Values that the ground has set: what activities make of them later counts.
+  std::vector<Observation> settings{};
   std::vector<CommandAck> acks{};
   std::vector<std::string> lost_owners{};  ///< services found dead, hung or cut off
   std::vector<DecisionAnswer> answers{};

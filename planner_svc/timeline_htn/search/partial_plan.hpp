@@ -28,8 +28,8 @@ struct Activity {
   TimePoint end = 0;
   model::Bounds bounds;
   Index goal = kNone;  ///< of the problem
-  Index subgoal =
-      kNone;  ///< of the parent's behaviour; kNone: goals, and steps that transitions or needs ask for
+  /// Of the parent's behaviour; kNone: goals, and steps that transitions or needs ask for.
+  Index subgoal = kNone;
   Index behaviour = kNone;  ///< that was chosen for a complex state
   Index binding = kNone;    ///< of its variables
   Index token = kNone;      ///< kNone: not placed, or within a state of the same timeline
