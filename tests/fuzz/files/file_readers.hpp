@@ -40,6 +40,7 @@ inline const std::map<std::string, std::string> kFileReaders{
      "- opens a file to see whether it can be read; what reads it is load.cpp"},
     {"planner_svc/utility_htn/reading/load.cpp", "FuzzNetworks.ADamagedFileIsTakenOrRefusedWithItsPlace"},
     {"rehearsal/main.cpp", "- a file that this very process wrote"},
+    {"rehearsal/statistics.cpp", "- files that this very process wrote"},
     {"services/clock/host_anchor.cpp", "- /proc, which the kernel writes"},
     {"services/health/heartbeat_sender.cpp", "- /proc/self, which the kernel writes"},
     {"services/launch/continuation.cpp", "- the launcher's own file; only unit tests read bad ones so far"},
