@@ -1,3 +1,4 @@
+// A dedicated executive as a service: what the program and a rehearsal make.
 #pragma once
 #include <memory>
 

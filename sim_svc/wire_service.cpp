@@ -127,49 +127,43 @@ v1::DataProduct to_wire(const world::Product& product) {
   return out;
 }
 
-v1::Hazard to_wire(const world::RockSeen& rock, const std::string& finder) {
+namespace {
+
+template <class Seen>
+v1::Hazard hazard_of(const Seen& seen, const std::string& finder) {
   v1::Hazard out;
   out.found_by(finder);
-  out.id(rock.id);
-  out.x_m(rock.x);
-  out.y_m(rock.y);
-  out.radius_m(rock.radius);
+  out.id(seen.id);
+  out.x_m(seen.x);
+  out.y_m(seen.y);
+  out.radius_m(seen.radius);
   return out;
 }
+
+template <class Seen>
+v1::TerrainFinding finding_as(v1::ObstacleKind kind, const Seen& seen) {
+  v1::TerrainFinding out;
+  out.robot(seen.robot);
+  out.id(seen.id);
+  out.obstacle_kind(kind);
+  out.x_m(seen.x);
+  out.y_m(seen.y);
+  out.radius_m(seen.radius);
+  out.found_us(seen.at.count());
+  return out;
+}
+
+}  // namespace
+
+v1::Hazard to_wire(const world::RockSeen& rock, const std::string& finder) { return hazard_of(rock, finder); }
 
 v1::Hazard to_wire(const world::SoilMarked& soil, const std::string& finder) {
-  v1::Hazard out;
-  out.found_by(finder);
-  out.id(soil.id);
-  out.x_m(soil.x);
-  out.y_m(soil.y);
-  out.radius_m(soil.radius);
-  return out;
+  return hazard_of(soil, finder);
 }
 
-v1::TerrainFinding finding_of(const world::RockSeen& rock) {
-  v1::TerrainFinding out;
-  out.robot(rock.robot);
-  out.id(rock.id);
-  out.obstacle_kind(v1::OBSTACLE_ROCK);
-  out.x_m(rock.x);
-  out.y_m(rock.y);
-  out.radius_m(rock.radius);
-  out.found_us(rock.at.count());
-  return out;
-}
+v1::TerrainFinding finding_of(const world::RockSeen& rock) { return finding_as(v1::OBSTACLE_ROCK, rock); }
 
-v1::TerrainFinding finding_of(const world::SoilMarked& soil) {
-  v1::TerrainFinding out;
-  out.robot(soil.robot);
-  out.id(soil.id);
-  out.obstacle_kind(v1::OBSTACLE_SOIL);
-  out.x_m(soil.x);
-  out.y_m(soil.y);
-  out.radius_m(soil.radius);
-  out.found_us(soil.at.count());
-  return out;
-}
+v1::TerrainFinding finding_of(const world::SoilMarked& soil) { return finding_as(v1::OBSTACLE_SOIL, soil); }
 
 v1::PathRequest to_wire(const world::PathWanted& path) {
   v1::PathRequest out;
