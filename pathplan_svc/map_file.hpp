@@ -1,3 +1,4 @@
+// What a mission file says of how the map of a robot is told.
 #pragma once
 #include <cstdint>
 #include <string>

@@ -1,19 +1,14 @@
 #include "science_svc/detector_file.hpp"
 
+#include "core/mission/bounded_number.hpp"
+
 namespace roci::science {
 namespace {
 
 using mission::Entry;
 
 double within(const Entry& section, std::string_view key, double fallback, double least, double most) {
-  const auto entry = section.find(key);
-  if (!entry) return fallback;
-  const double value = entry->number();
-  if (value < least || value > most) {
-    entry->fail("'" + std::string(key) + "' must lie between " + std::to_string(least) + " and " +
-                std::to_string(most) + "; correct the number");
-  }
-  return value;
+  return mission::bounded_number(section.find(key), key, fallback, least, most);
 }
 
 void read_camera(const Entry& section, CameraModel& out) {

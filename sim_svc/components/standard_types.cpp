@@ -4,6 +4,7 @@
 #include <memory>
 #include <utility>
 
+#include "core/mission/bounded_number.hpp"
 #include "sim_svc/components/arm.hpp"
 #include "sim_svc/components/arm_settings.hpp"
 #include "sim_svc/components/camera.hpp"
@@ -44,14 +45,7 @@ world::MakeComponent read_drive(Settings& in) { return making<Drive>(read_drive_
 world::MakeComponent read_arm(Settings& in) { return making<Arm>(read_arm_settings(in)); }
 
 double between(Settings& in, std::string_view key, double fallback, double least, double most) {
-  const auto entry = in.find(key);
-  if (!entry) return fallback;
-  const double value = entry->number();
-  if (value < least || value > most) {
-    entry->fail("'" + std::string(key) + "' must lie between " + std::to_string(least) + " and " +
-                std::to_string(most) + "; correct the number");
-  }
-  return value;
+  return mission::bounded_number(in.find(key), key, fallback, least, most);
 }
 
 world::MakeComponent read_camera(Settings& in) {

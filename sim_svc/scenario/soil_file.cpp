@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/mission/bounded_number.hpp"
 #include "core/terrain/polygon_file.hpp"
 #include "sim_svc/scenario/file_values.hpp"
 #include "sim_svc/setup/roster_file.hpp"
@@ -22,14 +23,7 @@ using world::SoilLayer;
 constexpr int kMostScattered = 1000;  // of one entry
 
 double within(const Entry& section, std::string_view key, double fallback, double least, double most) {
-  const auto entry = section.find(key);
-  if (!entry) return fallback;
-  const double value = entry->number();
-  if (value < least || value > most) {
-    entry->fail("'" + std::string(key) + "' must lie between " + std::to_string(least) + " and " +
-                std::to_string(most) + "; correct the number");
-  }
-  return value;
+  return mission::bounded_number(section.find(key), key, fallback, least, most);
 }
 
 Soil read_one(const Entry& entry) {
