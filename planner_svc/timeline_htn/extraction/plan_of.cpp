@@ -68,15 +68,19 @@ class Extraction {
   }
   temporal::Value observed_value(StateId state) const {
     const model::Observed& observed = *ground_.definition(state).observed;
-    if (observed.word == "true") return true;
-    if (observed.word == "false") return false;
-    char* end = nullptr;
-    const double number = std::strtod(observed.word.c_str(), &end);
-    if (end != observed.word.c_str() && *end == '\0') return number;
-    temporal::State out{observed.word, {}};
+    std::vector<std::string> arguments;
     for (const Term& term : observed.terms)
-      out.arguments.push_back(model_.objects[model::object_of(term, ground_.at(state).state.objects)].name);
-    return out;
+      arguments.push_back(model_.objects[model::object_of(term, ground_.at(state).state.objects)].name);
+    return seen_as(observed.word, std::move(arguments));
+  }
+  // The value that a word of the model stands for: a boolean, a number, or a state with its arguments.
+  static temporal::Value seen_as(const std::string& word, std::vector<std::string> arguments) {
+    if (word == "true") return true;
+    if (word == "false") return false;
+    char* end = nullptr;
+    const double number = std::strtod(word.c_str(), &end);
+    if (end != word.c_str() && *end == '\0') return number;
+    return temporal::State{word, std::move(arguments)};
   }
 
   void fill(Index index, PlanActivity& out) {
@@ -151,13 +155,14 @@ class Extraction {
       });
       const auto& observed_as = model_.components[other.component].states[other.state].observed;
       if (!bound || !observed_as) continue;
-      temporal::State value{observed_as->word, {}};
+      std::vector<std::string> arguments;
       for (const Term& term : observed_as->terms)
-        value.arguments.push_back(
+        arguments.push_back(
             model_
                 .objects[model::object_of(need.state.terms[term.index], ground_.at(one.state).state.objects)]
                 .name);
-      auto condition = temporal::compare(observed_as->timeline, temporal::ConditionOp::eq, std::move(value));
+      auto condition = temporal::compare(observed_as->timeline, temporal::ConditionOp::eq,
+                                         seen_as(observed_as->word, std::move(arguments)));
       if (need.kind == NeedKind::during) maintenance.push_back(condition);
       pre.push_back(std::move(condition));
     }
