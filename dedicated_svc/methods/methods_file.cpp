@@ -13,6 +13,7 @@ namespace {
 using mission::Entry;
 
 constexpr double kLongestWait = 1e7;  // seconds
+constexpr int kLongestCut = 1000;     // metres
 
 // What a template may name here: arguments of the command, and calls whose values it has.
 struct Known {
@@ -100,6 +101,15 @@ temporal::Duration read_time(const Entry& entry, const std::string& name) {
   return temporal::seconds(seconds);
 }
 
+PathCall read_path(const Entry& entry, const Known& known) {
+  entry.allow_only({"planner", "from", "to", "short_m"});
+  PathCall call{entry.at("planner").text(), read_place(entry.at("from"), known),
+                read_place(entry.at("to"), known), entry.number_or("short_m", 0)};
+  if (!(call.short_m >= 0 && call.short_m <= kLongestCut))
+    entry.at("short_m").fail("'short_m' is in metres, from 0 to " + std::to_string(kLongestCut));
+  return call;
+}
+
 Call read_call(const Entry& entry, const Known& known) {
   entry.allow_only({"name", "command", "path", "transform", "observe", "wait_s", "within_s", "check"});
   Call call;
@@ -108,11 +118,7 @@ Call read_call(const Entry& entry, const Known& known) {
     entry.at("name").fail("'" + call.name + "' is no name of a call; use letters, digits, '_' and '-'");
   int kinds = 0;
   if (const auto command = entry.find("command")) ++kinds, call.what = read_command(*command, known);
-  if (const auto path = entry.find("path")) {
-    path->allow_only({"planner", "from", "to"});
-    ++kinds, call.what = PathCall{path->at("planner").text(), read_place(path->at("from"), known),
-                                  read_place(path->at("to"), known)};
-  }
+  if (const auto path = entry.find("path")) ++kinds, call.what = read_path(*path, known);
   if (const auto transform = entry.find("transform")) {
     transform->allow_only({"place", "robot"});
     ++kinds, call.what = TransformCall{read_place(transform->at("place"), known),
