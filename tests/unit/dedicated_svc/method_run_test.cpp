@@ -165,7 +165,8 @@ dedicated:
       tells:
         done: {"way.{from}.{to}": [open]}
         b.fault: {"way.{from}.{to}": [closed, "{to}"], other: [seen]}
-)")
+)",
+                                                                      "m")
                                                     .at("dedicated"));
   const methods::Shown rest{"idle", {}};
   MethodRun first(methods.methods.at("go"), {{"from", "x"}, {"to", "y"}});
