@@ -39,7 +39,7 @@ class PathplanService : public services::Service {
       : node_(node),
         hazard_file_(run_folder.empty() ? run_folder : run_folder / (node.options().name + ".hazards")),
         keep_out_(rover.keep_out),
-        planner_(site, rover.limits, rover.drive, settings_of(node.options().incarnation),
+        planner_(site, rover.limits, rover.drive, settings_of(map, node.options().incarnation),
                  rover.keep_out_polygons),
         offers_(services::advertise(node, topics::function_offer)),
         events_(services::advertise(node, topics::event)),
@@ -59,9 +59,11 @@ class PathplanService : public services::Service {
   }
 
  private:
-  static PlannerSettings settings_of(std::uint32_t incarnation) {
+  // Who is told a map and its version may have heard of an earlier life.
+  static PlannerSettings settings_of(const MapSettings& map, std::uint32_t incarnation) {
     PlannerSettings out;
-    out.first_version = (std::max(incarnation, 1U) - 1) * kVersionsOfALife + 1;
+    if (map.telling != Telling::never)
+      out.first_version = (std::max(incarnation, 1U) - 1) * kVersionsOfALife + 1;
     return out;
   }
 
