@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "core/mission/bounded_number.hpp"
 #include "dedicated_svc/methods/fill.hpp"
 
 namespace roci::dedicated::methods {
@@ -13,7 +14,7 @@ namespace {
 using mission::Entry;
 
 constexpr double kLongestWait = 1e7;  // seconds
-constexpr int kLongestCut = 1000;     // metres
+constexpr double kLongestCut = 1000;  // metres
 
 // What a template may name here: arguments of the command, and calls whose values it has.
 struct Known {
@@ -103,11 +104,8 @@ temporal::Duration read_time(const Entry& entry, const std::string& name) {
 
 PathCall read_path(const Entry& entry, const Known& known) {
   entry.allow_only({"planner", "from", "to", "short_m"});
-  PathCall call{entry.at("planner").text(), read_place(entry.at("from"), known),
-                read_place(entry.at("to"), known), entry.number_or("short_m", 0)};
-  if (!(call.short_m >= 0 && call.short_m <= kLongestCut))
-    entry.at("short_m").fail("'short_m' is in metres, from 0 to " + std::to_string(kLongestCut));
-  return call;
+  return {entry.at("planner").text(), read_place(entry.at("from"), known), read_place(entry.at("to"), known),
+          mission::bounded_number(entry.find("short_m"), "short_m", 0, 0, kLongestCut)};
 }
 
 Call read_call(const Entry& entry, const Known& known) {
