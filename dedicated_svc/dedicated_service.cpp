@@ -117,7 +117,7 @@ class DedicatedService final : public services::Service, private owner::Driver {
   void finish_early(const method_run::Answer& answer) {
     owner::Word word = *under_way_->broken_off;
     word.results.values = answer.values;
-    end(under_way_->run.failed({.error = word.code}, methods_.rest), std::move(word));
+    end(under_way_->run.failed({.error = word.code.empty() ? "stopped" : word.code}, methods_.rest), std::move(word));
   }
 
   void finish(const method_run::End& result) {
