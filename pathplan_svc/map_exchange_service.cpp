@@ -99,9 +99,13 @@ void MapExchange::hear(const v1::MapPatch& patch) {
   in.map_version = patch.map_version();
   in.told = std::min(temporal::Time{patch.header().stamp_us()}, node_.now());
   const std::string who = in.author.substr(0, SharedMap::kNameBytes);
+  const std::string sender = patch.header().sender().substr(0, SharedMap::kNameBytes);
+  const bool genuine = patch.header().sender() == in.author;
   const std::string what = "patch " + std::to_string(in.number.second) + " of " + who;
-  const auto refused = [&](const std::string& why) { refuse("map.patch_refused", what, who, why); };
-  if (patch.header().sender() != in.author) return refused("it comes from '" + patch.header().sender() + "'");
+  const auto refused = [&](const std::string& why) {
+    refuse("map.patch_refused", what, genuine ? who : sender + " as " + who, why);
+  };
+  if (!genuine) return refused("it comes from '" + sender + "'");
   if (patch.obstacles().size() > SharedMap::kMost)
     return refused("it holds more than " + std::to_string(SharedMap::kMost) + " obstacles");
   if (host_.busy()) return refused("it comes while the map is being built; send it again");

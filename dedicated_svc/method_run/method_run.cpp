@@ -39,6 +39,7 @@ class Filler {
   void operator()(methods::PathCall& call) {
     (*this)(call.from);
     (*this)(call.to);
+    (*this)(call.map_told_s);
   }
   void operator()(methods::TransformCall& call) {
     (*this)(call.place);

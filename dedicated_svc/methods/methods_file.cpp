@@ -103,9 +103,20 @@ temporal::Duration read_time(const Entry& entry, const std::string& name) {
 }
 
 PathCall read_path(const Entry& entry, const Known& known) {
-  entry.allow_only({"planner", "from", "to", "short_m"});
-  return {entry.at("planner").text(), read_place(entry.at("from"), known), read_place(entry.at("to"), known),
-          mission::bounded_number(entry.find("short_m"), "short_m", 0, 0, kLongestCut)};
+  entry.allow_only({"planner", "from", "to", "short_m", "map_within_s", "merged"});
+  PathCall call{entry.at("planner").text(), read_place(entry.at("from"), known),
+                read_place(entry.at("to"), known),
+                mission::bounded_number(entry.find("short_m"), "short_m", 0, 0, kLongestCut)};
+  const auto within = entry.find("map_within_s"), merged = entry.find("merged");
+  if (!within && !merged) return call;
+  if (!within || !merged)
+    (within ? *within : *merged)
+        .fail("'map_within_s' and 'merged', the call that merged the other's map, stand together");
+  if (!known.calls.contains(merged->text()))
+    merged->fail("'" + merged->text() + "' names no call that has ended by then");
+  call.map_told_s = "{" + merged->text() + ".told_s}";
+  call.map_within = read_time(*within, "map_within_s");
+  return call;
 }
 
 Call read_call(const Entry& entry, const Known& known) {
