@@ -95,7 +95,7 @@ std::uint64_t Search::signature() const {
   for (Index c = 0; c < ground_.model().components.size(); ++c) {
     const Token& token = plan.tokens()[plan.current(c)];
     const bool running = token.activity != kNone && !plan.complete(token.activity);
-    out = join(out, std::uint64_t{token.state} * 2 + (running ? 1 : 0));
+    out = join(out, std::uint64_t{token.state} * 4 + (running ? 1 : 0) + (token.ended != 0 ? 2 : 0));
   }
   std::uint64_t open = 0;
   for (const Index index : plan.open()) {
