@@ -132,6 +132,9 @@ json plan_json(const lib::MissionView& view) {
   for (const v1::PlanActivity& activity : view.plan()->activities()) {
     json entry{{"id", activity.id()},
                {"name", activity.name()},
+               {"level", activity.level()},
+               {"parent", activity.parent()},
+               {"robot", robot_of(view, activity)},
                {"goals", activity.goals_served()},
                {"planned_start_us", planned_start_us(*view.plan(), activity)},
                {"duration_us", activity.duration_lower_us()},
