@@ -446,6 +446,28 @@ TEST_F(MapExchange, APatchPassesTheLinkBetweenTheRobots) {
   EXPECT_EQ(replies_["primary.path"][1].map_version(), 2U);
 }
 
+// What is told while the radio is away is one patch afterwards, and nothing of the others is missing in it.
+TEST_F(MapExchange, AfterACutTheNewestPatchHoldsAll) {
+  services::link::Link radio;
+  radio.name = "radio";
+  radio.ends = {"primary", "scout"};
+  radio.open = services::link::Schedule({}, {{500ms, 200s}});
+  run_.links = services::link::LinkTable({radio}, {{"primary.path", "primary"}, {"scout.path", "scout"}}, 1);
+  start();
+  find(1s, "scout", "scout-soil-1", 20, 20);
+  find(100s, "scout", "scout-soil-2", 26, 12);
+  ask(199s, "primary.path");
+  ask(201s, "primary.path");
+  run(202s);
+  ASSERT_EQ(replies_["primary.path"].size(), 2U);
+  EXPECT_EQ(replies_["primary.path"][0].map_version(), 1U) << "the radio is away";
+  EXPECT_EQ(replies_["primary.path"][1].map_version(), 2U);
+  std::ostringstream known;
+  known << std::ifstream(folder_ / "primary.path.hazards").rdbuf();
+  EXPECT_THAT(known.str(), HasSubstr("scout-soil-1"));
+  EXPECT_THAT(known.str(), HasSubstr("scout-soil-2"));
+}
+
 TEST_F(MapExchange, OnlyThePlannerOfARobotMayTell) {
   run_.robots.clear();
   try {
