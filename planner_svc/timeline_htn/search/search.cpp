@@ -84,8 +84,9 @@ std::optional<Obstacle> Search::out_of_reach() {
     });
     if (within_reach) continue;
     Obstacle out{Obstacle::Kind::no_behaviour, g, targets.front()};
-    for (const StateId before : all)
-      if (ground_.may_follow(before, targets.front())) out.state = before;
+    if (can_be(targets.front()))
+      for (const StateId before : all)
+        if (ground_.may_follow(before, targets.front()) && !can_be(before)) out.state = before;
     return out;
   }
   return std::nullopt;
