@@ -121,7 +121,7 @@ void Calls::start(const methods::CommandCall& call) {
                  [this](const Word& word) {
                    keep([this] { record_.end(); });
                    Answer result = answer_of(word);
-                   if (timed_out_ && word.stage == Stage::cancelled)
+                   if (timed_out_ && (word.stage == Stage::cancelled || word.stage == Stage::unknown))
                      result.error = "call-timeout", result.reason = "it took longer than it may";
                    answer(std::move(result));
                  });
