@@ -102,8 +102,8 @@ bool JournaledReactor::replay() {
 void JournaledReactor::begin_anew() {
   reactor_ = std::make_unique<Reactor>(*mission_);
   reactor_->restore(journal_->goals(), static_cast<std::uint32_t>(journal_->number("plan_version", 0)));
-  const std::int64_t all = static_cast<std::int64_t>(orders::AutonomyLevel::e4);
-  reactor_->restore_authority(static_cast<orders::AutonomyLevel>(journal_->number("autonomy", all)),
+  const std::int64_t first = static_cast<std::int64_t>(mission_->executive.autonomy);
+  reactor_->restore_authority(static_cast<orders::AutonomyLevel>(journal_->number("autonomy", first)),
                               journal_->number("held", 0) != 0);
   journal_->set_number("format", journal::kInputFormat);
   anchor(temporal::Time{0}, "restored");

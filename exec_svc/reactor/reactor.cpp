@@ -23,7 +23,7 @@ using mission::Replanning;
 using temporal::Time;
 
 struct Reactor::Parts {
-  explicit Parts(const MissionModel& mission) : state(mission) {}
+  explicit Parts(const MissionModel& mission) : state(mission) { ground.reinstate(); }
 
   MissionState state;
   RunningPlan plan{state};

@@ -172,7 +172,7 @@ std::string RunningPlan::relaunch(Time now, const std::set<std::string>& dropped
   const std::set<std::string> without = left_out(steps, dropped);
   if (std::string fault = relaunch_fault(plan, steps, without, now); !fault.empty()) return fault;
   plan.version = ++version_;
-  executive_.load(plan, now);
+  executive_.load_again(plan, now);
   invalid_ = false;
   for (const std::string& activity : without) executive_.drop(activity, "left out by the relaunch");
   watch(plan, true);
