@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -114,6 +115,36 @@ TEST_P(Levels, AMissionMayStartAsLateAsItMay) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Transports, Levels, ::testing::Values("inproc", "fastdds", "cyclonedds", "mixed"),
+                         [](const auto& dds) { return std::string(dds.param); });
+
+class Idling : public ::testing::TestWithParam<const char*> {
+ protected:
+  ~Idling() override { fs::remove_all(folder_); }
+  const fs::path folder_ = fs::temp_directory_path() / ("roci_idling_" + std::to_string(::getpid()));
+};
+
+// R129: idle from the plan's end to the next plan. What the plan has brought about on a timeline that nobody observes is told like an
+// observation (R135), also by an executive that was killed meanwhile and plans on from there.
+TEST_P(Idling, IsShownWithWhatThePlanHasBroughtAbout) {
+  const Ended ended =
+      run(ROCI_SOURCE_DIR "/tests/scenario/idle.sh \"$(dirname \"$(command -v roci-launch)\")\" " +
+          std::string(kPorter) + " " + GetParam() + " " + folder_.string() +
+          " errand --scenario cycle --speed 60");
+  std::vector<json> lines;
+  std::istringstream text(ended.output);
+  for (std::string line; std::getline(text, line);) lines.push_back(json::parse(line, nullptr, false));
+  ASSERT_EQ(lines.size(), 3U) << ended.output;
+  for (const json& status : {lines[0], lines[1]}) {
+    ASSERT_TRUE(status.is_object()) << ended.output;
+    EXPECT_EQ(status["idle"]["after_plan"], 1) << status;
+    EXPECT_EQ(status["idle"]["outcome"], "finished");
+    EXPECT_EQ(status["timelines"]["errand"], "fetched red");
+    EXPECT_EQ(status["phase"], "finished");
+  }
+  EXPECT_EQ(lines[2].value("result", ""), "achieved") << ended.output;
+}
+
+INSTANTIATE_TEST_SUITE_P(Vendors, Idling, ::testing::Values("fastdds", "cyclonedds"),
                          [](const auto& dds) { return std::string(dds.param); });
 
 }  // namespace
