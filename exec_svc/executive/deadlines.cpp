@@ -28,6 +28,11 @@ Time Deadlines::end(Index activity) const {
   return earliest;
 }
 
+bool Deadlines::leaves_room(Index activity, Time now) const {
+  const bool keeps_end = state_->plan.activities[activity].lateness == LatenessPolicy::deadline;
+  return plus(now, keeps_end ? state_->points.duration(activity).lower : Duration{0}) <= end(activity);
+}
+
 Time Deadlines::hung_after(Index activity) const {
   const Duration longest = state_->points.duration(activity).upper;
   if (!bounded(longest)) return temporal::no_bound;
