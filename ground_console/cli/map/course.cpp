@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <charconv>
+#include <map>
 #include <optional>
+#include <set>
 #include <string_view>
 
 namespace roci::console::cli::map {
@@ -107,6 +109,38 @@ std::string robot_of(const std::string& timeline, const std::vector<std::string>
   for (const std::string& robot : robots)
     if (timeline == robot || timeline.starts_with(robot + ".")) return robot;
   return "";
+}
+
+void join_families(Course& course) {
+  std::map<std::string, std::vector<const Row*>> families;
+  for (const Row& row : course.rows) {
+    const std::size_t dot = row.timeline.find('.', row.timeline.find('.') + 1);
+    const bool once = row.held.size() == 1 && !row.held.front().planned && row.repairs_us.empty();
+    if (once && dot != std::string::npos) families[row.timeline.substr(0, dot + 1)].push_back(&row);
+  }
+  std::erase_if(families, [](const auto& family) { return family.second.size() < kFamily; });
+  std::vector<Row> out;
+  std::set<const Row*> joined;
+  for (const Row& row : course.rows) {
+    if (joined.contains(&row)) continue;
+    const auto family = std::ranges::find_if(
+        families, [&](const auto& one) { return std::ranges::find(one.second, &row) != one.second.end(); });
+    if (family == families.end()) {
+      out.push_back(row);
+      continue;
+    }
+    Row all{family->first + "*"};
+    for (const Row* one : family->second) {
+      joined.insert(one);
+      const Held& held = one->held.front();
+      all.held.push_back(
+          {one->timeline.substr(family->first.size()) + " " + held.value, held.from_us, held.to_us});
+    }
+    std::ranges::stable_sort(all.held, {}, &Held::from_us);
+    for (std::size_t i = 1; i < all.held.size(); ++i) all.held[i - 1].to_us = all.held[i].from_us;
+    out.push_back(std::move(all));
+  }
+  course.rows = std::move(out);
 }
 
 void sort_by_robot(const std::vector<std::string>& robots, Course& course) {

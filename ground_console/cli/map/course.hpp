@@ -42,6 +42,11 @@ void add_planned(const std::string& timeline, const Held& held, Course& course);
 /// Puts the rows of the team first, then those of each of these robots, each part in its order.
 void sort_by_robot(const std::vector<std::string>& robots, Course& course);
 
+/// Joins rows of one family, "primary.way.w0.w1" and so on, that each say one thing once, to one row "primary.way.*" that shows the newest of
+/// them ("w0.w1 open"). Families of fewer than kFamily stay as they are.
+void join_families(Course& course);
+inline constexpr std::size_t kFamily = 3;
+
 /// The robot of these that a timeline belongs to; empty: the team's.
 std::string robot_of(const std::string& timeline, const std::vector<std::string>& robots);
 

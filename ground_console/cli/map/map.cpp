@@ -271,6 +271,7 @@ int show_map(const MapArguments& arguments, const services::process::ConnectionF
     for (const auto& [robot, way] : picture->map->driven)
       if (std::ranges::find(robots, robot) == robots.end()) robots.push_back(robot);
   }
+  join_families(picture->course);
   sort_by_robot(picture->robots, picture->course);
   try {
     if (!arguments.png.empty()) write_map(arguments.png, *picture->map, as_json);

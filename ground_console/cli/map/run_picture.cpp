@@ -79,8 +79,8 @@ void draw_obstacle(const KnownObstacle& one, const Panel& panel, Svg& svg) {
   svg.open(kind + " " + one.id + " found by " + one.found_by + place);
   svg.circle(x, y, radius, {.fill = colour, .opacity = 0.3});
   svg.circle(x, y, radius, {.stroke = colour, .width = 1.5, .dashes = one.kind == "soil" ? "4 2" : ""});
-  svg.text(x, y + 4, kind + (one.found_by.empty() ? "" : " of " + one.found_by),
-           {.size = 11, .colour = colour, .anchor = "middle", .bold = true});
+  svg.text(x, y + radius + 13, kind + (one.found_by.empty() ? "" : " of " + one.found_by),
+           {.size = 11, .colour = colour, .anchor = "middle", .bold = true, .halo = true});
   svg.close();
 }
 
@@ -100,7 +100,7 @@ void draw_places(const MissionMap& map, const Panel& panel, Svg& svg) {
   for (const NamedPlace& place : map.places) {
     const auto [x, y] = panel.at(place.at);
     svg.circle(x, y, 2.5, {.fill = kInkColour, .stroke = "#ffffff", .width = 1});
-    svg.text(x, y - 6, place.name, {.size = 10, .colour = kInkColour, .anchor = "middle"});
+    svg.text(x, y - 6, place.name, {.size = 10, .colour = kInkColour, .anchor = "middle", .halo = true});
   }
 }
 

@@ -105,10 +105,14 @@ void Svg::polygon(const std::vector<Point>& points, const Ink& ink) {
 }
 
 void Svg::text(double x, double y, std::string_view text, const Letters& letters) {
-  body_ += "<text x=\"" + number(x) + "\" y=\"" + number(y) + "\" font-size=\"" + number(letters.size) +
-           "\" fill=\"" + letters.colour + "\"" +
-           (letters.anchor == "start" ? "" : " text-anchor=\"" + letters.anchor + "\"") +
-           (letters.bold ? " font-weight=\"bold\"" : "") + ">" + escaped(text) + "</text>\n";
+  body_ +=
+      "<text x=\"" + number(x) + "\" y=\"" + number(y) + "\" font-size=\"" + number(letters.size) +
+      "\" fill=\"" + letters.colour + "\"" +
+      (letters.anchor == "start" ? "" : " text-anchor=\"" + letters.anchor + "\"") +
+      (letters.bold ? " font-weight=\"bold\"" : "") +
+      (letters.halo ? " paint-order=\"stroke\" stroke=\"#ffffff\" stroke-width=\"3\" stroke-opacity=\"0.75\""
+                    : "") +
+      ">" + escaped(text) + "</text>\n";
 }
 
 void Svg::text_within(double x, double y, double width, std::string_view all, const Letters& letters) {

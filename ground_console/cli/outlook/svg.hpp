@@ -23,6 +23,7 @@ struct Letters {
   std::string colour = "#1d2733";
   std::string anchor = "start";  ///< or "middle", "end"
   bool bold = false;
+  bool halo = false;  ///< they stand on a light rim
 };
 
 class Svg {

@@ -84,6 +84,17 @@ TEST(Course, HasRowsOfTheTeamFirstThenByRobotAndWhatIsToCome) {
                   "repair 20"));
 }
 
+TEST(Course, JoinsWhatAFamilyOfTimelinesSaysOnce) {
+  std::istringstream trace(
+      "0 observation p.nav idle sampled 0\n1000000 observation p.way.b.c open sampled 1\n"
+      "2000000 observation p.way.c.d shut sampled 2\n2000000 observation p.arm.a up sampled 2\n"
+      "3000000 observation p.way.d.e open sampled 3\n4000000 observation p.arm.b up sampled 4\n");
+  Course out = course_of(trace);
+  join_families(out);
+  EXPECT_THAT(rows_of(out), ElementsAre("p.nav: idle 0-4", "p.way.*: b.c open 1-2 c.d shut 2-3 d.e open 3-4",
+                                        "p.arm.a: up 2-4", "p.arm.b: up 4-4"));
+}
+
 TEST(Course, OfAnythingElseIsShortOrEmpty) {
   std::string many =
       "0 plan\n-5 observation a b sampled 0\n1 observation\n1 ack x stage=0 \n2 observation a b\n";
