@@ -1,10 +1,12 @@
 #include "dedicated_svc/calls_service.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <system_error>
 #include <utility>
 
+#include "core/terrain/way.hpp"
 #include "dedicated_svc/limits.hpp"
 #include "services/node/make_event.hpp"
 #include "services/publisher.hpp"
@@ -23,6 +25,31 @@ std::optional<double> number_of(const std::string& text) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(number)) return {};
   return number;
+}
+
+terrain::Way way_of(const v1::PathReply& reply) {
+  terrain::Way way;
+  for (const v1::Pose2& one : reply.waypoints()) way.push_back({one.x_m(), one.y_m()});
+  return way;
+}
+
+// Adds the way and where and how it ends; one without a leg ends as it began.
+void add_way(const terrain::Way& way, double first_heading, std::map<std::string, Value>& values) {
+  values["way"] = temporal::state(terrain::to_text(way), {});
+  values["end_x"] = way.back().x;
+  values["end_y"] = way.back().y;
+  values["end_heading_rad"] = terrain::heading_at_end(way, first_heading);
+}
+
+// Says in words that the map of another robot, on which a path stands, is too old; empty: it is not.
+std::string age_fault(const methods::PathCall& call, temporal::Time now) {
+  if (call.map_told_s.empty()) return {};
+  const auto told = number_of(call.map_told_s);
+  if (!told) return "when its map was told is no number: " + call.map_told_s;
+  const temporal::Duration age = now - temporal::seconds(*told);
+  if (age <= call.map_within) return {};
+  return "the newest map that was merged is " + std::to_string(temporal::to_seconds(age)) +
+         " s old, and may be " + std::to_string(temporal::to_seconds(call.map_within)) + " s";
 }
 
 const char* error_of(v1::MotionOutcome outcome) {
@@ -129,6 +156,14 @@ void Calls::take_path(const services::CallResult<v1::PathReply>& result) {
     out.values["next_x"] = reply.waypoints()[1].x_m();
     out.values["next_y"] = reply.waypoints()[1].y_m();
   }
+  const auto& call = std::get<methods::PathCall>(call_.what);
+  if (const std::string fault = age_fault(call, node_.now()); out.error.empty() && !fault.empty())
+    return answer({"map-too-old", fault, std::move(out.values), {}});
+  const terrain::Way way = way_of(reply);
+  if (!std::ranges::all_of(way, [](terrain::Point p) { return std::isfinite(p.x) && std::isfinite(p.y); }))
+    return answer({error_of(v1::MOTION_INVALID), "its way-points are no finite numbers", {}, {}});
+  if (out.error.empty() && !way.empty() && way.size() <= kWayPoints)
+    add_way(terrain::cut_short(way, call.short_m), reply.waypoints()[0].heading_rad(), out.values);
   answer(std::move(out));
 }
 

@@ -28,10 +28,14 @@ struct YardCommand {
 /// Asks the path planner of the robot for the way from one place to another; its word has the way, or the code no-path.
 YardCommand path(const std::string& robot, terrain::Point from, terrain::Point to);
 YardCommand drive(const std::string& robot, double x, double y);
+/// The robot drives over these points and asks no planner.
+YardCommand drive_over(const std::string& robot, const std::vector<terrain::Point>& way);
 YardCommand turn(const std::string& robot, double x, double y);
 YardCommand localise();
 /// The path planner of the robot tells its map.
 YardCommand tell(const std::string& robot);
+/// The path planner of the robot waits for at least this version of the other's map, so many seconds at most.
+YardCommand merge(const std::string& robot, const std::string& author, double version, double within_s = 60);
 
 struct YardWord {
   v1::CommandStage stage = v1::STAGE_UNKNOWN;

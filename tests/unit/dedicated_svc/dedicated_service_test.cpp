@@ -52,6 +52,18 @@ dedicated:
         - {name: spot, transform: {place: {robot: scout, ahead_m: 2, left_m: 1}, robot: scout}, check: {world_x: {at_least: 2, at_most: 2}}}
         - {name: seen, observe: {timeline: ground.window, is: [true]}}
       results: {y: "{spot.world_y}", left: "{spot.y}"}
+    Follow:
+      calls:
+        - {name: here, path: {planner: nav, from: {robot: scout}, to: {object: w1}}}
+        - {name: on, path: {planner: nav, from: {object: w1}, to: {x: "9", y: "4"}, short_m: 1.25}, check: {length_m: {at_least: 6, at_most: 6}, end_x: {at_least: 7.75, at_most: 7.75}, end_y: {at_least: 4, at_most: 4}, end_heading_rad: {at_least: 0, at_most: 0}}}
+        - {name: short, path: {planner: nav, from: {robot: scout}, to: {object: w1}, short_m: 99}, check: {length_m: {at_least: 5}, end_x: {at_most: 0}, end_heading_rad: {at_least: 0.5, at_most: 0.5}}}
+        - {name: drive, command: {owner: wheels, robot: scout, subsystem: nav, name: drive, arguments: {to: w1, way: "{here.way};{on.way};{short.way}"}}}
+    Merge:
+      calls:
+        - {name: m, command: {owner: wheels, robot: scout, subsystem: map, name: merge}}
+        - {name: a, path: {planner: nav, from: {robot: scout}, to: {object: w1}, map_within_s: 20, merged: m}}
+        - {name: wait, wait_s: 0.000001}
+        - {name: b, path: {planner: nav, from: {robot: scout}, to: {object: w1}, map_within_s: 20, merged: m}}
     Look:
       calls:
         - {name: seen, observe: {timeline: scout.nav, is: [idle-at, w1]}, within_s: 50}
@@ -62,22 +74,24 @@ class Wheels final : private owner::Driver {
  public:
   Wheels(services::Node& node, std::deque<std::string> script)
       : node_(node), script_(std::move(script)), commands_(node, *this) {}
-  std::vector<std::string> begun;
+  std::vector<std::string> begun, ways;
 
  private:
   void carry_out(const owner::Request& request) override {
     begun.push_back(request.robot + "." + request.subsystem + " " + request.command + " " +
                     request.key.activity);
+    if (request.arguments.contains("way")) ways.push_back(request.arguments.at("way"));
     commands_.say(request.key, {owner::Stage::accepted});
     running_ = request.key;
     const std::string how = script_.front();
     if (script_.size() > 1) script_.pop_front();
     if (how == "for-ever") return;
     if (how == "dies") node_.after(5s, [] { throw services::Crash{}; });
-    timer_ = node_.after(20s, [this, how] {
+    owner::Results results{{}, 5.0, {}};
+    if (request.command == "merge") results.values["told_s"] = temporal::to_seconds(node_.now());
+    timer_ = node_.after(20s, [this, how, results] {
       const bool done = how == "done";
-      commands_.say(*running_,
-                    {done ? owner::Stage::completed : owner::Stage::failed, how, "", {{}, 5.0, {}}});
+      commands_.say(*running_, {done ? owner::Stage::completed : owner::Stage::failed, how, "", results});
     });
   }
   void break_off(const owner::CommandKey& key, const owner::Word& why) override {
@@ -154,6 +168,9 @@ class DedicatedServiceTest : public testing::Test {
       reply.reason("said nav");
       reply.length_m(std::hypot(request.goal_pose().x_m() - request.origin().x_m(),
                                 request.goal_pose().y_m() - request.origin().y_m()));
+      reply.waypoints({request.origin(), request.goal_pose()});
+      reply.waypoints()[0].heading_rad(0.5);
+      if (points_ > 0) reply.waypoints().resize(points_, request.goal_pose());
       responder.reply(std::move(reply));
     });
     const auto dedicated = make_service(run.add("loco"), settings_);
@@ -165,6 +182,7 @@ class DedicatedServiceTest : public testing::Test {
       static const std::vector<std::string> stages{"accepted",  "rejected",      "completed", "failed",
                                                    "cancelled", "cancel-failed", "unknown"};
       if (ack.owner() != "loco") return;
+      reasons_.push_back(ack.reason());
       std::string results;
       for (const v1::NamedValue& one : ack.outcome().measured())
         if (one.name() != "duration_s")
@@ -183,12 +201,14 @@ class DedicatedServiceTest : public testing::Test {
     master.after(400s, [&master] { master.stop(); });
     run.run();
     begun_ = wheels.begun;
+    ways_ = wheels.ways;
     return heard;
   }
 
   std::filesystem::path folder_;
   services::RunSettings settings_;
-  std::vector<std::string> begun_;
+  std::vector<std::string> begun_, ways_, reasons_;
+  std::size_t points_ = 0;  // of each path; 0: its two ends
 };
 
 TEST_F(DedicatedServiceTest, CarriesAMethodOutAndTellsWhatItBrought) {
@@ -196,6 +216,23 @@ TEST_F(DedicatedServiceTest, CarriesAMethodOutAndTellsWhatItBrought) {
       talk({{1s, command("a", "Traverse")}}),
       ElementsAre("0 idle", "1 a accepted", "1 traversing", "21 a completed done length_m=5.0", "21 at"));
   EXPECT_THAT(begun_, ElementsAre("scout.nav drive master/1/a/2"));
+}
+
+TEST_F(DedicatedServiceTest, AWayIsCutShortJoinedAndHandedOn) {
+  EXPECT_THAT(talk({{1s, command("a", "Follow")}}), Contains("21 a completed done"));
+  EXPECT_THAT(ways_, ElementsAre("0,0;3,4;3,4;7.75,4;0,0"));
+}
+
+TEST_F(DedicatedServiceTest, AWayOfTooManyPointsIsNotBrought) {
+  points_ = 257;
+  EXPECT_THAT(talk({{1s, command("a", "Traverse")}}), Contains("21 a completed done length_m=5.0"));
+  EXPECT_THAT(talk({{1s, command("b", "Follow")}}), Contains(HasSubstr("1 b failed wrong-value")));
+  EXPECT_THAT(ways_, IsEmpty());
+}
+
+TEST_F(DedicatedServiceTest, APathOnAMapThatWasToldTooLongAgoIsNoPath) {
+  EXPECT_THAT(talk({{1s, command("a", "Merge")}}), Contains(HasSubstr("21 a failed map-too-old")));
+  EXPECT_THAT(reasons_, Contains("b: the newest map that was merged is 20.000001 s old, and may be 20.000000 s"));
 }
 
 TEST_F(DedicatedServiceTest, AFailedCallFailsTheCommandWithItsCode) {
