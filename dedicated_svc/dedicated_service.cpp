@@ -232,17 +232,18 @@ class DedicatedService final : public services::Service, private owner::Driver {
   void finish_early(const method_run::Answer& answer) {
     owner::Word word = *under_way_->broken_off;
     word.results.values = answer.values;
-    end(under_way_->run.failed(word.code, methods_.rest), std::move(word));
+    end(under_way_->run.failed({.error = word.code.empty() ? "stopped" : word.code}, methods_.rest), std::move(word));
   }
 
   void finish(const method_run::End& result) {
     owner::Word word{Stage::completed, "done", result.reason, {}};
     word.results.energy_j = result.energy_j;
     word.results.values = result.values;
+    for (const auto& [timeline, value] : under_way_->run.told(result)) show(timeline, value);
     if (result.error.empty()) return end(under_way_->run.then(methods_.rest), std::move(word));
     word.stage = Stage::failed;
     word.code = result.error;
-    end(under_way_->run.failed(result.error, methods_.rest), std::move(word));
+    end(under_way_->run.failed(result, methods_.rest), std::move(word));
   }
 
   void end(const temporal::Value& state, owner::Word word) {
@@ -268,9 +269,10 @@ class DedicatedService final : public services::Service, private owner::Driver {
     return "it has no method '" + command + "'" + words::did_you_mean(command, known);
   }
 
-  void show(const temporal::Value& state) {
+  void show(const temporal::Value& state) { show(methods_.timeline, state); }
+  void show(const std::string& timeline, const temporal::Value& state) {
     v1::Observation seen;
-    seen.timeline(methods_.timeline);
+    seen.timeline(timeline);
     seen.observed(services::wire::to_wire(state));
     seen.sampled_us(node_.now().count());
     states_.write(seen);

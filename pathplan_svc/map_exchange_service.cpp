@@ -72,6 +72,10 @@ MapExchange::MapExchange(services::Node& node, const MapSettings& settings, cons
       events_(services::advertise(node, topics::event)) {
   services::subscribe(node, topics::terrain_finding, [this](const v1::TerrainFinding& one) { hear(one); });
   services::subscribe(node, topics::map_patch, [this](const v1::MapPatch& patch) { hear(patch); });
+  if (!node.options().robot.empty()) {
+    known_maps_ = services::advertise(node, topics::known_map);
+    node.after(temporal::Duration{0}, [this] { show(); });
+  }
   if (settings_.telling == Telling::never) return;
   patches_ = services::advertise(node, topics::map_patch);
   commands_.emplace(node, static_cast<owner::Driver&>(*this));
@@ -89,6 +93,7 @@ void MapExchange::hear(const v1::TerrainFinding& finding) {
     return refuse("map.finding_refused", "finding " + id, finding.robot(), intake.refusal);
   if (!intake.changed) return;
   host_.changed();
+  show();
   if (settings_.telling == Telling::at_once) tell({});
 }
 
@@ -112,14 +117,22 @@ void MapExchange::hear(const v1::MapPatch& patch) {
   for (const v1::MapObstacle& one : patch.obstacles()) in.obstacles.push_back(obstacle_of(one));
   const Intake intake = map_.take(in);
   if (!intake.refusal.empty()) return refused(intake.refusal);
-  if (intake.changed) {
-    report(
-        v1::SEVERITY_INFO, "map.patch_taken",
-        what + " brings the map of " + in.robot + " up to its version " + std::to_string(patch.map_version()),
-        {{"author", who}, {"map_version", std::to_string(patch.map_version())}});
-    host_.changed();
-  }
+  v1::TakenPatch& taken = taken_[in.author];
+  taken.author(in.author);
+  taken.map_version(patch.map_version());
+  taken.taken_us(node_.now().count());
+  if (intake.changed) take_over(patch, in, what);
+  show();
   end_merges();
+}
+
+void MapExchange::take_over(const v1::MapPatch& patch, const MapPatch& in, const std::string& what) {
+  report(
+      v1::SEVERITY_INFO, "map.patch_taken",
+      what + " brings the map of " + in.robot + " up to its version " + std::to_string(patch.map_version()),
+      {{"author", in.author.substr(0, SharedMap::kNameBytes)},
+       {"map_version", std::to_string(patch.map_version())}});
+  host_.changed();
 }
 
 // What is told is what is known now; the version is that of the map with all of it.
@@ -131,11 +144,29 @@ void MapExchange::tell(const std::function<void(std::uint64_t, std::size_t)>& to
     const std::size_t count = patch.obstacles().size();
     patch.map_version(version);
     patches_->write(std::move(patch));
+    told_version_ = version;
+    told_us_ = node_.now().count();
     report(v1::SEVERITY_INFO, "map.told",
            "the team is told of " + std::to_string(count) + " obstacles of the map's version " +
                std::to_string(version),
            {{"map_version", std::to_string(version)}, {"obstacles", std::to_string(count)}});
     if (told) told(version, count);
+    show();
+  });
+}
+
+// For who watches; the version is that of the map with all of it.
+void MapExchange::show() {
+  if (!known_maps_) return;
+  v1::KnownMap known;
+  known.planner(node_.options().name);
+  for (const FoundObstacle& one : map_.all()) known.obstacles().push_back(to_wire(one));
+  host_.settled([this, known = std::move(known)](std::uint64_t version) mutable {
+    known.map_version(version);
+    known.told_version(told_version_);
+    known.told_us(told_us_);
+    for (const auto& [author, taken] : taken_) known.taken().push_back(taken);
+    known_maps_->write(std::move(known));
   });
 }
 

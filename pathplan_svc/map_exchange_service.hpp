@@ -1,4 +1,4 @@
-// What a path planner hears of the terrain from its own robot and from the team, and what it tells the team.
+// What a path planner hears of the terrain from its own robot and from the team, what it tells the team, and what it shows who watches.
 #pragma once
 
 #include <functional>
@@ -49,6 +49,8 @@ class MapExchange final : private services::owner::Driver {
 
   void hear(const v1::TerrainFinding&);
   void hear(const v1::MapPatch&);
+  void take_over(const v1::MapPatch&, const MapPatch& in, const std::string& what);
+  void show();
   void tell(const std::function<void(std::uint64_t version, std::size_t obstacles)>& told);
   void tell_as_commanded(const services::owner::CommandKey&);
   void merge(const services::owner::Request&);
@@ -72,7 +74,11 @@ class MapExchange final : private services::owner::Driver {
   std::vector<Merge> merges_;
   services::bounds::Tally refusals_;
   services::Publisher<v1::Event> events_;
-  std::optional<services::Publisher<v1::MapPatch>> patches_;  // of who tells
+  std::optional<services::Publisher<v1::MapPatch>> patches_;     // of who tells
+  std::optional<services::Publisher<v1::KnownMap>> known_maps_;  // of a robot's
+  std::map<std::string, v1::TakenPatch> taken_;                  // by author
+  std::uint64_t told_version_ = 0;
+  std::int64_t told_us_ = -1;
   std::optional<services::owner::CommandServer> commands_;
 };
 

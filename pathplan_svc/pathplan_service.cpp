@@ -177,6 +177,7 @@ class PathplanService : public services::Service {
       if (one.cleared) continue;
       hazards.push_back({{"found_by", one.finder},
                          {"id", one.id},
+                         {"kind", one.kind == ObstacleKind::soil ? "soil" : "rock"},
                          {"x_m", one.disc.centre.x},
                          {"y_m", one.disc.centre.y},
                          {"radius_m", one.disc.radius}});

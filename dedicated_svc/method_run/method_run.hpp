@@ -44,6 +44,7 @@ struct End {
   /// Of success, what `results` says; else what the failed call brought.
   std::map<std::string, temporal::Value> values{};
   std::optional<double> energy_j{};  ///< of all calls, repairs included; empty: some call told none
+  std::string call{};                ///< whose error it is
 };
 
 /// Says what comes next: a call, or the end. `repairing` is not empty where the call begins a repair: whoever hosts the
@@ -74,10 +75,12 @@ class MethodRun {
   /// Instead of the repair's first call: there is no time for it, so the error that it was for stands.
   End forbid_repair();
 
-  /// The state to be shown while it runs, when it is carried out, and where it failed with this error.
+  /// The state to be shown while it runs, when it is carried out, and where it failed.
   temporal::Value during() const;
   temporal::Value then(const methods::Shown& rest) const;
-  temporal::Value failed(const std::string& error, const methods::Shown& rest) const;
+  temporal::Value failed(const End& end, const methods::Shown& rest) const;
+  /// What is to be said of other timelines in the end.
+  std::map<std::string, temporal::Value> told(const End& end) const;
 
  private:
   // Where the run stands: in the method's own calls, or in those of a repair.

@@ -113,7 +113,10 @@ struct Method {
   std::map<std::string, std::string> results{};  ///< what goes up with its success: "call.value" by name
   Shown during{};                                ///< else the command's name and arguments
   Shown then{};                                  ///< else the executive's state of rest
-  std::map<std::string, Shown> failed{};         ///< by error; "*": any other
+  /// By "call.error" where it is for that call alone, by error, "*": any other; the first of these that is there counts.
+  std::map<std::string, Shown> failed{};
+  /// What it says of other timelines in the end, by outcome: "done", or an error as above. Timelines are templates.
+  std::map<std::string, std::map<Template, Shown>> tells{};
 };
 
 /// Is all that one dedicated executive can do, on the one timeline that it shows.

@@ -182,7 +182,7 @@ Repair read_repair(const Entry& entry, const Method& method, Known known, std::s
 }
 
 Method read_method(const std::string& command, const Entry& entry) {
-  entry.allow_only({"arguments", "calls", "repairs", "results", "during", "then", "failed"});
+  entry.allow_only({"arguments", "calls", "repairs", "results", "during", "then", "failed", "tells"});
   Method method;
   method.command = command;
   if (const auto arguments = entry.find("arguments")) method.arguments = arguments->texts();
@@ -191,6 +191,17 @@ Method read_method(const std::string& command, const Entry& entry) {
   if (const auto failed = entry.find("failed"))
     failed->each_field([&](const std::string& error, const Entry& value) {
       method.failed[error] = read_shown(value, known);
+    });
+  if (const auto tells = entry.find("tells"))
+    tells->each_field([&](const std::string& outcome, const Entry& value) {
+      value.each_field([&](const std::string& timeline, const Entry& state) {
+        if (const auto names = names_in(timeline);
+            !names ||
+            !std::ranges::all_of(*names, [&](const auto& name) { return known.arguments.contains(name); }))
+          state.fail("the timeline '" + timeline +
+                     "' may hold arguments of the command in braces, and nothing else");
+        method.tells[outcome][timeline] = read_shown(state, known);
+      });
     });
   std::set<std::string> names;
   method.calls = read_calls(entry.at("calls"), known, names);

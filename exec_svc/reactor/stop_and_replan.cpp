@@ -61,7 +61,9 @@ void StopAndReplan::continue_pause(Time now) {
       parts_.planning.begin(now);
     }
   } else if (now >= pause_deadline_) {
-    parts_.safing.make_safe(now, names_of(state.beliefs.active()) + " did not become inactive in time");
+    const auto active = state.beliefs.active();
+    parts_.safing.make_safe(now, active.empty() ? "what was cancelled was not answered in time"
+                                                : names_of(active) + " did not become inactive in time");
   } else {
     if (!stopping && !parts_.safing.fallbacks_sent()) parts_.safing.send_fallbacks();
     state.wake_at(pause_deadline_);

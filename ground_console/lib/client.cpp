@@ -142,6 +142,9 @@ Client::Client(const services::process::Connection& connection)
   follow(topics::function_offer);
   follow(topics::downlink_schedule);
   follow(topics::mission_outlook);
+  follow(topics::command);
+  follow(topics::command_ack);
+  follow(topics::known_map);
 }
 
 template <class T>

@@ -51,6 +51,8 @@ class MapExchange : public testing::Test {
                         [this](const v1::MapPatch& patch) { patches_.push_back(patch); });
     services::subscribe(world_, topics::command_ack,
                         [this](const v1::CommandAck& ack) { acks_.push_back(ack); });
+    services::subscribe(world_, topics::known_map,
+                        [this](const v1::KnownMap& map) { known_[map.planner()] = map; });
     services::subscribe(world_, topics::function_offer, [this](const v1::FunctionOffer& offer) {
       versions_[offer.owner()] = offer.model_version();
     });
@@ -177,6 +179,7 @@ class MapExchange : public testing::Test {
   std::vector<std::string> events_, texts_;
   std::vector<v1::MapPatch> patches_;
   std::vector<v1::CommandAck> acks_;
+  std::map<std::string, v1::KnownMap> known_;
   std::map<std::string, std::uint64_t> versions_;
   std::map<std::string, std::vector<v1::PathReply>> replies_;
 };
@@ -384,6 +387,35 @@ TEST_F(MapExchange, APatchOfNobodyOffTheMapOrNotFiniteIsRefusedAndNamedAndTheMis
   EXPECT_EQ(replies_["scout.path"].at(0).map_version(), 1U);
 }
 
+// Who watches sees what each robot's map has, when it was told and what was taken; also before anything was found.
+TEST_F(MapExchange, EachShowsWhatItsMapHasAndWhatItToldAndTook) {
+  start();
+  world_.after(500ms, [this] {
+    ASSERT_TRUE(known_.contains("primary.path"));
+    EXPECT_EQ(known_["primary.path"].map_version(), 1U);
+    EXPECT_EQ(known_["primary.path"].told_us(), -1);
+    EXPECT_TRUE(known_["primary.path"].obstacles().empty());
+  });
+  find(1s, "scout", "scout-soil-1", 20, 20);
+  find(2s, "primary", "primary-soil-1", 10, 10, 1);
+  find(3s, "scout", "scout-soil-1", 20, 20);  // nothing new
+  run(4s);
+  const v1::KnownMap &primary = known_["primary.path"], &scout = known_["scout.path"];
+  EXPECT_EQ(primary.header().robot(), "primary");
+  EXPECT_EQ(primary.map_version(), 3U);
+  EXPECT_EQ(primary.obstacles().size(), 2U);
+  EXPECT_EQ(primary.told_us(), -1) << "it tells on request";
+  ASSERT_EQ(primary.taken().size(), 1U);
+  EXPECT_EQ(primary.taken()[0].author(), "scout.path");
+  EXPECT_EQ(primary.taken()[0].map_version(), 2U);
+  EXPECT_EQ(primary.taken()[0].taken_us(), 1'000'000);
+  EXPECT_EQ(scout.map_version(), 2U);
+  ASSERT_EQ(scout.obstacles().size(), 1U) << "the primary has not told of its own";
+  EXPECT_EQ(scout.told_version(), 2U);
+  EXPECT_EQ(scout.told_us(), 1'000'000);
+  EXPECT_TRUE(scout.taken().empty());
+}
+
 TEST_F(MapExchange, WhatItKnowsStandsInTheRunFolder) {
   start();
   find(1s, "scout", "scout-soil-1", 20, 20);
@@ -392,6 +424,7 @@ TEST_F(MapExchange, WhatItKnowsStandsInTheRunFolder) {
     std::ostringstream text;
     text << std::ifstream(folder_ / (name + ".hazards")).rdbuf();
     EXPECT_THAT(text.str(), HasSubstr("scout-soil-1")) << name;
+    EXPECT_THAT(text.str(), HasSubstr("\"kind\": \"soil\"")) << name;
   }
 }
 
@@ -411,6 +444,28 @@ TEST_F(MapExchange, APatchPassesTheLinkBetweenTheRobots) {
   ASSERT_EQ(replies_["primary.path"].size(), 2U);
   EXPECT_EQ(replies_["primary.path"][0].map_version(), 1U) << "it is under way";
   EXPECT_EQ(replies_["primary.path"][1].map_version(), 2U);
+}
+
+// What is told while the radio is away is one patch afterwards, and nothing of the others is missing in it.
+TEST_F(MapExchange, AfterACutTheNewestPatchHoldsAll) {
+  services::link::Link radio;
+  radio.name = "radio";
+  radio.ends = {"primary", "scout"};
+  radio.open = services::link::Schedule({}, {{500ms, 200s}});
+  run_.links = services::link::LinkTable({radio}, {{"primary.path", "primary"}, {"scout.path", "scout"}}, 1);
+  start();
+  find(1s, "scout", "scout-soil-1", 20, 20);
+  find(100s, "scout", "scout-soil-2", 26, 12);
+  ask(199s, "primary.path");
+  ask(201s, "primary.path");
+  run(202s);
+  ASSERT_EQ(replies_["primary.path"].size(), 2U);
+  EXPECT_EQ(replies_["primary.path"][0].map_version(), 1U) << "the radio is away";
+  EXPECT_EQ(replies_["primary.path"][1].map_version(), 2U);
+  std::ostringstream known;
+  known << std::ifstream(folder_ / "primary.path.hazards").rdbuf();
+  EXPECT_THAT(known.str(), HasSubstr("scout-soil-1"));
+  EXPECT_THAT(known.str(), HasSubstr("scout-soil-2"));
 }
 
 TEST_F(MapExchange, OnlyThePlannerOfARobotMayTell) {
