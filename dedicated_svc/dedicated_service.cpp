@@ -226,6 +226,7 @@ class DedicatedService final : public services::Service, private owner::Driver {
     if (step.end) return finish(*step.end);
     if (!step.repairing.empty() && !commands_.repair(under_way_->request.key, step.repairing))
       return finish(under_way_->run.forbid_repair());
+    if (const temporal::Value now = under_way_->run.during(); now != shown_) show(now);
     calls_.begin(*step.ask, under_way_->request, [this](const method_run::Answer& answer) { take(answer); });
   }
 
@@ -271,7 +272,10 @@ class DedicatedService final : public services::Service, private owner::Driver {
     return "it has no method '" + command + "'" + words::did_you_mean(command, known);
   }
 
-  void show(const temporal::Value& state) { show(methods_.timeline, state); }
+  void show(const temporal::Value& state) {
+    shown_ = state;
+    show(methods_.timeline, state);
+  }
   void show(const std::string& timeline, const temporal::Value& state) {
     v1::Observation seen;
     seen.timeline(timeline);
@@ -297,6 +301,7 @@ class DedicatedService final : public services::Service, private owner::Driver {
   std::optional<Kept> kept_;
   std::optional<owner::CommandKey> ended_before_;  // whose word may not have been heard
   bool settled_ = false;
+  temporal::Value shown_;  // of its own timeline
 };
 
 }  // namespace
