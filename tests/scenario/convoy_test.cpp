@@ -61,6 +61,9 @@ TEST_P(Convoy, TheGroundStopsThePlanAndLaunchesItAgain) {
                                              "press w2", "drive w2"));
 }
 
+// Level E2 (R128).
+TEST_P(Convoy, APlanOfFixedTimesBreaksWhereAStepLastsLonger) { expect_as_listed("e2"); }
+
 // Level E1 (R128): two rovers at a time, each with one commander.
 TEST_P(Convoy, TheGroundCommandsSingleDecisions) {
   expect_as_listed("commanded");

@@ -76,6 +76,12 @@ TEST_P(Patrol, AContingencyThatDoesNotHelpBreaksThePlan) { expect_as_listed("no_
 // R131: the plan holds both choices.
 TEST_P(Patrol, WhichWayIsRightIsSeenWhenItIsDue) { expect_as_listed("night"); }
 
+// R149: with every level of the plan, and its choice as it was made.
+TEST_P(Patrol, AStoppedPlanOfSeveralLevelsGoesOn) {
+  expect_as_listed("stopped");
+  EXPECT_THAT(deeds_of(folder_), ElementsAre("drive camp ridge", "film ", "light_up ", "light_up "));
+}
+
 INSTANTIATE_TEST_SUITE_P(Transports, Patrol, ::testing::Values("inproc", "fastdds", "cyclonedds", "mixed"),
                          [](const auto& dds) { return std::string(dds.param); });
 
