@@ -71,8 +71,6 @@ void AnsweringHost::take(const v1::PlanRequest& request,
                       Duration(request.budget().wall_us()), responder});
     queue_.back().request.improvement = settings_.improvement;
     queue_.back().request.functions = settings_.functions;
-    if (queue_.back().request.model == settings_.model)
-      queue_.back().request.model_file = settings_.model_file;
   } catch (const services::wire::WireError& error) {
     return responder.reply(to_wire(engine::without_plan(Verdict::invalid_input, error.what())));
   }

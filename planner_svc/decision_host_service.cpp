@@ -22,7 +22,6 @@ DecisionHost::DecisionHost(services::Node& node, const Settings& settings,
   request_.engine = settings.engine;
   request_.robot = node.options().robot;
   request_.model = settings.model;
-  request_.model_file = settings.model_file;
   services::subscribe(node, topics::decision, [this](const v1::Decision& decision) { hear(decision); });
   services::subscribe(node, topics::plan, [this](const v1::Plan& plan) { hear(plan); });
   services::subscribe(node, topics::observation, [this](const v1::Observation& seen) { hear(seen); });

@@ -1,27 +1,17 @@
 #include "planner_svc/settings.hpp"
 
 #include <cmath>
-#include <fstream>
-#include <iterator>
 
 #include "core/mission/mission_file.hpp"
+#include "core/mission/model_text.hpp"
 
 namespace roci::planner {
-namespace {
-
-std::string text_of(const roci::mission::Entry& name) {
-  std::ifstream file(name.resolve(name.text()), std::ios::binary);
-  if (!file) name.fail("model file '" + name.text() + "' cannot be read; check the path and its permissions");
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
-}  // namespace
 
 Settings read_settings(const std::filesystem::path& mission) {
   Settings out;
   const auto root = roci::mission::load_mission_file(mission);
   if (const auto model = root.find("model")) {
-    out.model = text_of(*model);
+    out.model = roci::mission::model_text(*model);
     out.model_file = model->resolve(model->text());
   }
   if (const auto ground = root.find("ground"))

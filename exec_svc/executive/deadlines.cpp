@@ -41,7 +41,10 @@ Time Deadlines::hung_after(Index activity) const {
   return plus(state_->runs[activity].attempt_started, plus(stretched, settings.overrun_grace));
 }
 
-Time Deadlines::latest_end(Index activity) const { return std::min(end(activity), hung_after(activity)); }
+Time Deadlines::latest_end(Index activity) const {
+  const Time last = end(activity);
+  return std::min(bounded(last) ? last - Duration{1} : last, hung_after(activity));
+}
 
 Time Deadlines::settled_from(Index activity) const {
   const PlanActivity& planned = state_->plan.activities[activity];

@@ -1,10 +1,9 @@
 #include "exec_svc/mission/mission_model.hpp"
 
-#include <fstream>
 #include <optional>
-#include <sstream>
 
 #include "core/mission/mission_file.hpp"
+#include "core/mission/model_text.hpp"
 #include "core/pddl/types.hpp"
 #include "exec_svc/mission/action_entries.hpp"
 #include "exec_svc/mission/domain_names.hpp"
@@ -20,15 +19,6 @@ Duration seconds(const Entry& entry) { return temporal::seconds(entry.number());
 
 Duration seconds_or(const Entry& parent, const char* key, double fallback_s) {
   return temporal::seconds(parent.number_or(key, fallback_s));
-}
-
-std::string whole_file(const Entry& name) {
-  const auto path = name.resolve(name.text());
-  std::ifstream in(path);
-  if (!in) name.fail("cannot read " + path.string() + "; check the name");
-  std::ostringstream text;
-  text << in.rdbuf();
-  return text.str();
 }
 
 std::vector<StateModel> read_states(const Entry& states, bool has_domain) {
@@ -170,10 +160,10 @@ void read_model(const Entry& root, MissionModel& out) {
   if (domain_file && model_file)
     model_file->fail(
         "'domain' is the model of an engine that reads PDDL; name 'model' or 'domain', not both");
-  if (model_file) out.model_text = whole_file(*model_file);
+  if (model_file) out.model_text = roci::mission::model_text(*model_file);
   if (!domain_file) return;
   out.domain_name = "unread";  // with findings: what speaks of it is not doubted
-  out.model_text = whole_file(*domain_file);
+  out.model_text = roci::mission::model_text(*domain_file);
   out.domain = std::make_shared<const pddl::Domain>(
       read_domain(out.model_text, domain_file->resolve(domain_file->text()).string()));
   out.domain_name = out.domain->name;

@@ -4,8 +4,10 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
+#include "ground_console/cli/orders.hpp"
 #include "ground_console/cli/plan_table.hpp"
 #include "ground_console/cli/plan_values.hpp"
+#include "ground_console/cli/robots.hpp"
 
 namespace roci::console::cli {
 
@@ -127,6 +129,11 @@ json status_json(const lib::MissionView& view) {
   }
   for (const auto& [name, observation] : view.timelines())
     out["timelines"][name] = lib::value_text(observation.observed());
+  out["robots"] = robots_json(view);
+  out["decisions"] = json::array();
+  for (const v1::Decision* decision : open_decisions(view))
+    out["decisions"].push_back(decision_json(*decision));
+  out["repairs"] = repairs_json(view);
   return out;
 }
 
@@ -152,6 +159,9 @@ json plan_json(const lib::MissionView& view) {
   for (const v1::PlanActivity& activity : view.plan()->activities()) {
     json entry{{"id", activity.id()},
                {"name", activity.name()},
+               {"level", activity.level()},
+               {"parent", activity.parent()},
+               {"robot", robot_of(view, activity)},
                {"goals", activity.goals_served()},
                {"planned_start_us", planned_start_us(*view.plan(), activity)},
                {"duration_us", activity.duration_lower_us()},
@@ -209,9 +219,12 @@ std::string status_text(const lib::MissionView& view) {
   if (const v1::LeaseMessage* leader = view.leader()) out += "executive: " + lib::pair_text(*leader) + "\n";
   out += "\nGoals\n";
   for (const auto& [key, status] : view.goals()) out += "  " + goal_line(status) + "\n";
+  out += robots_text(view);
   out += "\nServices\n";
+  std::size_t width = 14;
+  for (const auto& [name, heartbeat] : view.services()) width = std::max(width, name.size() + 2);
   for (const auto& [name, heartbeat] : view.services()) {
-    out += "  " + padded(name, 14) + padded(lib::name_of(heartbeat.state()), 10) +
+    out += "  " + padded(name, width) + padded(lib::name_of(heartbeat.state()), 10) +
            padded(heartbeat.dds(), 12) + "start " + std::to_string(heartbeat.incarnation()) + ", " +
            std::to_string(heartbeat.resident_kb() / 1024) + " MB\n";
   }

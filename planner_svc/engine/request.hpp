@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
 #include <functional>
 #include <map>
 #include <string>
@@ -76,7 +75,8 @@ struct Request {
   std::string engine;  ///< its name in the table
   std::string robot;   ///< whose plan it is; empty: the only one
   temporal::Time origin{0};
-  std::string model;         ///< of the mission, in the engine's own language
+  /// Of the mission, in the engine's own language, with what it includes (mission::model_text).
+  std::string model;
   std::string problem_text;  ///< for engines that read text; else empty
   Timelines state;           ///< at the origin
   std::vector<PredictedValue> predictions;
@@ -90,8 +90,6 @@ struct Request {
   /// Evaluations that may be spent on better plans once there is one, beside `work`; 0: none. It is the mission's and not on
   /// the wire: whoever hosts the engine sets it.
   std::uint64_t improvement = kImprovement;
-  /// The file of the mission's model, beside which lies what it includes; empty: it is a text alone. Likewise the host's to say.
-  std::filesystem::path model_file{};
 };
 
 /// What may end a call early. Both functions may be called from any thread, and as often as every

@@ -29,9 +29,11 @@ std::vector<std::string> faults(const model::Model& model, const temporal::Flexi
   if (!out.empty()) return out;
   check_timelines(version, out);
   check_needs(version, out);
+  check_conditions(version, out);
   check_goal_names(version, out);
   Decompositions decompositions = decompose(version, out);
   check_triggers(version, decompositions, out);
+  check_mending(version, out);
   check_decisions(version, decompositions, out);
   if (!out.empty()) return out;
   for (const Schedule& schedule : schedules(version)) {

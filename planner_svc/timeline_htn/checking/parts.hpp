@@ -20,10 +20,14 @@ using Decompositions = std::vector<std::vector<Decomposition>>;
 void check_timelines(Version& version, Faults& out);
 /// Checks that one value meets each dependency of another in every schedule.
 void check_needs(const Version& version, Faults& out);
+/// Checks that the executive waits for what an activity needs of timelines that are observed, and for nothing else of them.
+void check_conditions(const Version& version, Faults& out);
 /// Returns all decompositions whose objects, tests, parts and constraints fit; notes activities that have none.
 Decompositions decompose(const Version& version, Faults& out);
 /// Checks that the plan begins with what the problem triggers.
 void check_triggers(const Version& version, const Decompositions& decompositions, Faults& out);
+/// Checks that what belongs to no mending of an error starts after all of it, but for what timelines go on with at once.
+void check_mending(const Version& version, Faults& out);
 /// Checks the decisions that the behaviours leave open.
 void check_decisions(const Version& version, const Decompositions& decompositions, Faults& out);
 

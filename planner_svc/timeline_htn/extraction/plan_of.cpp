@@ -1,6 +1,8 @@
 #include "planner_svc/timeline_htn/extraction/plan_of.hpp"
 
 #include <algorithm>
+#include <cstdlib>
+#include <functional>
 #include <map>
 #include <set>
 
@@ -13,6 +15,8 @@ using temporal::ConstraintKind, temporal::Duration, temporal::FlexiblePlan, temp
     temporal::PlanActivity, temporal::TemporalConstraint, temporal::TimePoint;
 
 namespace {
+
+constexpr double kMostAlternatives = 256;  // of one condition; above, any arguments will do
 
 /// Makes the plan, list by list.
 class Extraction {
@@ -67,7 +71,9 @@ class Extraction {
     return temporal::compare(definition.observed->timeline, temporal::ConditionOp::eq, observed_value(state));
   }
   temporal::Value observed_value(StateId state) const {
-    const model::Observed& observed = *ground_.definition(state).observed;
+    return seen_as(*ground_.definition(state).observed, ground_.at(state).state.objects);
+  }
+  temporal::Value seen_as(const model::Observed& observed, const std::vector<Index>& objects) const {
     if (observed.word == "true") return true;
     if (observed.word == "false") return false;
     char* end = nullptr;
@@ -75,7 +81,7 @@ class Extraction {
     if (end != observed.word.c_str() && *end == '\0') return number;
     temporal::State out{observed.word, {}};
     for (const Term& term : observed.terms)
-      out.arguments.push_back(model_.objects[model::object_of(term, ground_.at(state).state.objects)].name);
+      out.arguments.push_back(model_.objects[model::object_of(term, objects)].name);
     return out;
   }
 
@@ -144,20 +150,9 @@ class Extraction {
   void fill_conditions(const Activity& one, PlanActivity& out) const {
     std::vector<temporal::Condition> pre, maintenance;
     for (const model::Need& need : ground_.definition(one.state).needs) {
-      if (need.kind == NeedKind::met_by) continue;
-      model::GroundState other{need.state.component, need.state.state, {}};
-      const bool bound = std::ranges::all_of(need.state.terms, [&](const Term& term) {
-        return term.object || term.index < ground_.at(one.state).state.objects.size();
-      });
-      const auto& observed_as = model_.components[other.component].states[other.state].observed;
-      if (!bound || !observed_as) continue;
-      temporal::State value{observed_as->word, {}};
-      for (const Term& term : observed_as->terms)
-        value.arguments.push_back(
-            model_
-                .objects[model::object_of(need.state.terms[term.index], ground_.at(one.state).state.objects)]
-                .name);
-      auto condition = temporal::compare(observed_as->timeline, temporal::ConditionOp::eq, std::move(value));
+      const auto& observed_as = model_.components[need.state.component].states[need.state.state].observed;
+      if (need.kind == NeedKind::met_by || !observed_as) continue;
+      temporal::Condition condition = seen(one.state, need, *observed_as);
       if (need.kind == NeedKind::during) maintenance.push_back(condition);
       pre.push_back(std::move(condition));
     }
@@ -166,6 +161,46 @@ class Extraction {
     if (one.token == kNone || out.owner.empty()) return;
     const StateId after = next_state(one.token);
     if (after != kNone && ground_.at(after).kind == StateKind::resting) out.post = observed(after);
+  }
+
+  // What is seen where the need is met. Its free names may be any object: all of them where they are all that is seen of the state, else one
+  // after the other.
+  temporal::Condition seen(StateId needing, const model::Need& need, const model::Observed& as) const {
+    std::vector<Index> objects = ground_.at(needing).state.objects;
+    const std::size_t bound = objects.size();
+    const auto& free = ground_.definition(needing).free;
+    objects.resize(bound + free.size(), kNone);
+    const auto value_of = [&] {
+      std::vector<Index> other;
+      for (const Term& term : need.state.terms) other.push_back(model::object_of(term, objects));
+      return seen_as(as, other);
+    };
+    std::vector<Index> open;
+    for (const Term& term : as.terms) {
+      const Term& name = need.state.terms[term.index];
+      if (!name.object && name.index >= bound && std::ranges::find(open, name.index) == open.end())
+        open.push_back(name.index);
+    }
+    double ways = 1;
+    for (const Index name : open)
+      ways *= static_cast<double>(
+          std::ranges::count(model_.objects, free[name - bound].type, &model::Object::type));
+    if (!open.empty() && (open.size() == as.terms.size() || ways > kMostAlternatives))
+      return temporal::compare(as.timeline, temporal::ConditionOp::eq, temporal::State{as.word, {}});
+    std::vector<temporal::Condition> any;
+    const std::function<void(std::size_t)> each = [&](std::size_t next) {
+      if (next == open.size()) {
+        any.push_back(temporal::compare(as.timeline, temporal::ConditionOp::eq, value_of()));
+        return;
+      }
+      for (Index object = 0; object < model_.objects.size(); ++object) {
+        if (model_.objects[object].type != free[open[next] - bound].type) continue;
+        objects[open[next]] = object;
+        each(next + 1);
+      }
+    };
+    each(0);
+    return any.size() == 1 ? any.front() : temporal::any_of(any);
   }
 
   StateId next_state(Index token) const {

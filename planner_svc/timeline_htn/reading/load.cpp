@@ -6,6 +6,7 @@
 #include <set>
 #include <utility>
 
+#include "core/mission/model_text.hpp"
 #include "planner_svc/timeline_htn/model/bounds.hpp"
 #include "planner_svc/timeline_htn/model/check.hpp"
 #include "planner_svc/timeline_htn/reading/sections.hpp"
@@ -36,9 +37,13 @@ class Roots {
     add(contents(file), file.string(), true);
   }
   void add_text(const Text& text) {
-    if (roots.size() >= model::kMostTexts)
-      throw FileError(text.name + ": more than " + std::to_string(model::kMostTexts) + " texts; join some");
-    add(text.content, text.name, false);
+    const std::vector<mission::ModelPart> parts = mission::model_parts(text.content, text.name);
+    for (const mission::ModelPart& part : parts) came_.insert(part.name);
+    for (const mission::ModelPart& part : parts) {
+      if (roots.size() >= model::kMostTexts)
+        throw FileError(part.name + ": more than " + std::to_string(model::kMostTexts) + " texts; join some");
+      add(part.text, part.name, false);
+    }
   }
 
   std::vector<Entry> roots;
@@ -69,8 +74,13 @@ class Roots {
     roots.push_back(root);
     const auto includes = root.find("include");
     if (!includes) return;
-    if (!may_include) includes->fail("a text that came without a folder includes no files; send them along");
     for (const Entry& one : one_or_more(*includes, model::kMostTexts)) {
+      if (!may_include) {
+        if (!came_.contains(mission::included_name(name, one.text())))
+          one.fail("a text that came without a folder includes only what came with it; send '" + one.text() +
+                   "' along");
+        continue;
+      }
       const std::filesystem::path file = one.resolve(one.text());
       std::error_code error;
       if (!std::filesystem::is_regular_file(file, error))
@@ -81,6 +91,7 @@ class Roots {
 
   Findings& findings_;
   std::set<std::filesystem::path> seen_;
+  std::set<std::string> came_;  // names of texts
   std::size_t bytes_ = 0;
 };
 

@@ -30,7 +30,7 @@ model::Model load_model(const std::vector<std::filesystem::path>& files);
 /// Says whether the problem of a text is all there is to it, or is to be completed by a request before it is checked.
 enum class Problem { whole, of_a_request };
 
-/// Reads texts, which include nothing.
+/// Reads texts; one may be a model of several files (mission::model_text), which include each other.
 std::optional<model::Model> parse_model(const std::vector<Text>& texts, mission::Findings& findings,
                                         Problem problem = Problem::whole);
 

@@ -44,6 +44,7 @@ PartialPlan::PartialPlan(Ground& ground, Bindings& bindings, const std::vector<I
     current_.push_back(static_cast<Index>(tokens_.size()));
     const StateId state = ground.find(ground_of(*initial, {}));
     tokens_.push_back({state, temporal::origin_point, network_.add_point(), kNone, kNone});
+    tokens_.back().mends = ground.at(state).kind == StateKind::simple;
     static_cast<void>(constrain(0, tokens_.back().end, Duration{0}, ground.at(state).bounds.longest));
   }
   add_mending();
@@ -158,6 +159,8 @@ Index& PartialPlan::slot(Field field, Index index) {
       return activities_[index].open_parts;
     case Field::path:
       return activities_[index].path_from;
+    case Field::ended:
+      return tokens_[index].ended;
     default:
       return urgent_;
   }
@@ -257,12 +260,17 @@ bool PartialPlan::refuse(Obstacle obstacle) {
 }
 
 // Appends a value to its timeline, and its needs to what is urgent. Returns kNone where time does not permit it.
-Index PartialPlan::append(StateId state, Index activity) {
+Index PartialPlan::append(StateId state, Index activity, Index cause) {
   const Instance& instance = ground_->at(state);
   const Index component = instance.state.component;
   const auto token = static_cast<Index>(tokens_.size());
-  const TimePoint start = tokens_[current_[component]].end;
-  tokens_.push_back({state, start, network_.add_point(), activity, current_[component]});
+  const Token& last = tokens_[current_[component]];
+  const StateKind kind = ground_->at(last.state).kind;
+  const bool at_once = last.mends && kind != StateKind::resting && kind != StateKind::error;
+  Token added{state, last.end, network_.add_point(), activity, current_[component], cause};
+  added.mends = is_mending(cause) || (at_once && instance.kind != StateKind::complex);
+  const TimePoint start = added.start;
+  tokens_.push_back(added);
   set(Field::current, component, token);
   const model::Bounds& bounds = activity == kNone ? instance.bounds : activities_[activity].bounds;
   if (!constrain(start, tokens_.back().end, bounds.shortest, bounds.longest)) return kNone;
@@ -271,17 +279,31 @@ Index PartialPlan::append(StateId state, Index activity) {
   return token;
 }
 
-// Appends a state that stands between two others.
-bool PartialPlan::step_between(StateId state, Index parent, Index goal, bool complex_permitted) {
+// Whether the activity is a behaviour that mends an error, or below one.
+bool PartialPlan::is_mending(Index activity) const {
+  while (activity != kNone && activities_[activity].parent != kNone) activity = activities_[activity].parent;
+  return activity != kNone && activity < mending_.size();
+}
+
+// A step on the way to a goal begins after all that mends errors, unless its timeline can do nothing else.
+bool PartialPlan::wait_for_mending(Index activity, Index token) {
+  if (tokens_[token].mends) return true;
+  for (Index mending = 0; mending < mending_.size(); ++mending)
+    if (!constrain(activities_[mending].end, activities_[activity].start, Duration{0})) return false;
+  return true;
+}
+
+// Appends a state that stands between two others, on the way to what the cause asks for.
+bool PartialPlan::step_between(StateId state, Index cause, Index parent, bool complex_permitted) {
   const StateKind kind = ground_->at(state).kind;
-  if (kind == StateKind::resting) return append(state, kNone) != kNone;
+  if (kind == StateKind::resting) return append(state, kNone, cause) != kNone;
   if (kind == StateKind::complex && !complex_permitted) return false;
   const Index activity = add_activity(state, parent);
   if (activity == kNone) return false;
   activities_[activity].placed = true;
-  activities_[activity].goal = goal;
-  const Index token = append(state, activity);
-  if (token == kNone) return false;
+  if (cause != kNone) activities_[activity].goal = activities_[cause].goal;
+  const Index token = append(state, activity, cause);
+  if (token == kNone || !wait_for_mending(activity, token)) return false;
   activities_[activity].token = token;
   if (!constrain(tokens_[token].start, activities_[activity].start, Duration{0}, Duration{0}) ||
       !constrain(tokens_[token].end, activities_[activity].end, Duration{0}, Duration{0}))
@@ -311,10 +333,11 @@ bool PartialPlan::go_on(Index activity, StateId state) {
   const Index from = wanted.path_from == kNone ? static_cast<Index>(tokens_.size()) : wanted.path_from;
   if (state != wanted.state) {
     if (wanted.path_from == kNone) set(Field::path, activity, from);
-    return step_between(state, wanted.parent, wanted.goal, true);
+    return step_between(state, activity, wanted.parent, true);
   }
-  if (ground_->at(state).kind == StateKind::resting) return append(state, kNone) != kNone && attach(activity);
-  const Index token = append(state, activity);
+  if (ground_->at(state).kind == StateKind::resting)
+    return append(state, kNone, activity) != kNone && attach(activity);
+  const Index token = append(state, activity, activity);
   if (token == kNone || !constrain(tokens_[token].start, wanted.start, Duration{0}, Duration{0}) ||
       !constrain(tokens_[token].end, wanted.end, Duration{0}, Duration{0}))
     return false;
@@ -350,9 +373,8 @@ bool PartialPlan::follow(Index component, const Pattern& pattern, const std::vec
     if (chosen == kNone) return false;
     path.push_back(state = chosen);
   }
-  return std::ranges::all_of(path, [&](StateId one) {
-    return step_between(one, activities_[activity].parent, activities_[activity].goal, false);
-  });
+  return std::ranges::all_of(
+      path, [&](StateId one) { return step_between(one, activity, activities_[activity].parent, false); });
 }
 
 bool PartialPlan::conditions_hold(Index activity, const Behaviour& behaviour,
@@ -496,6 +518,7 @@ bool PartialPlan::meet_need(Index needing, Index need, Index other) {
     case NeedKind::at_start:
       return constrain(met.start, one.start, Duration{0}) && constrain(one.start, met.end, Duration{0});
     case NeedKind::met_by:
+      if (met.ended == 0) set(Field::ended, other, 1);
       return constrain(met.end, one.start, Duration{0}, Duration{0});
   }
   return false;
@@ -504,12 +527,11 @@ bool PartialPlan::meet_need(Index needing, Index need, Index other) {
 bool PartialPlan::path_to_need(StateId state) {
   const Urgent item = urgents_[urgent_];
   pop();
-  const Index owner = tokens_[item.subject].activity;
-  const Index parent = owner == kNone ? kNone : activities_[owner].parent;
-  const Index goal = owner == kNone ? kNone : activities_[owner].goal;
+  const Index cause = tokens_[item.subject].cause;
+  const Index parent = cause == kNone ? kNone : activities_[cause].parent;
   const Index component = ground_->at(state).state.component;
   if (state != item.goal) push(item);
-  if (!step_between(state, parent, goal, false)) return false;
+  if (!step_between(state, cause, parent, false)) return false;
   return state != item.goal || meet_need(item.subject, item.need, current_[component]);
 }
 

@@ -18,6 +18,10 @@ struct Token {
   TimePoint end = 0;
   Index activity = kNone;  ///< whose state it is; kNone: one to rest in, or where the timeline began
   Index before = kNone;    ///< token of the same timeline
+  Index cause = kNone;     ///< activity for which it was appended; kNone: none, or where the timeline began
+  Index ended = 0;         ///< 1: something asks for its end before the horizon
+  /// Is of what mends an error, or what its timeline goes on with at once: neither waits for the mending.
+  bool mends = false;
 };
 
 /// Is a node of the hierarchy: a subgoal, a goal, a step between two states, or a behaviour that mends an error.
@@ -171,7 +175,8 @@ class PartialPlan {
     path,
     urgent,
     opened,
-    closed
+    closed,
+    ended
   };
   struct Change {
     Field field;
@@ -185,13 +190,15 @@ class PartialPlan {
   Index add_activity(StateId state, Index parent, const model::Bounds* bounds = nullptr);
   void widen(model::Bounds& bounds, const model::Behaviour& behaviour, Index variable,
              const model::Pattern& pattern, const std::vector<Index>& objects);
-  Index append(StateId state, Index activity);
+  Index append(StateId state, Index activity, Index cause);
+  bool is_mending(Index activity) const;
+  bool wait_for_mending(Index activity, Index token);
   void push(Urgent item);
   void pop();
   void finish(Index activity);
   void open_up(Index activity);
   void place(Index activity);
-  bool step_between(StateId state, Index parent, Index goal, bool complex_permitted);
+  bool step_between(StateId state, Index cause, Index parent, bool complex_permitted);
   bool attach(Index activity);
   bool go_on(Index activity, StateId state);
   bool decompose(Index activity, Index behaviour, Index binding);

@@ -54,6 +54,7 @@ bool Successors::whole(const PartialPlan& plan, const Ground& ground) {
   for (Index c = 0; c < ground.model().components.size(); ++c) {
     const StateKind kind = ground.at(plan.current_state(c)).kind;
     if (kind != StateKind::resting && kind != StateKind::error) return false;
+    if (plan.tokens()[plan.current(c)].ended != 0) return false;
   }
   return true;
 }
@@ -225,12 +226,12 @@ void Successors::needs(const PartialPlan& plan, const Urgent& item, std::vector<
     for (const StateId goal : ground_->reachable(plan.current_state(component), need.state, variables))
       if (goal != plan.current_state(component))
         out.push_back({StepKind::need_path, item.subject, goal, item.need});
-  // A simple state that holds at another time may be left and come again.
+  // A simple state that holds at another time, or one that is to end, may be left and come again.
   const StateId held = plan.current_state(component);
   int nested = 0;
   for (const Urgent* one = &item; one != nullptr; one = plan.below(*one)) ++nested;
-  if (ground_->at(held).kind == StateKind::simple && nested <= kMostNestedNeeds &&
-      ground_->fits(held, need.state, variables))
+  const bool ends = ground_->at(held).kind == StateKind::simple || plan.tokens()[current].ended != 0;
+  if (ends && nested <= kMostNestedNeeds && ground_->fits(held, need.state, variables))
     out.push_back({StepKind::need_path, item.subject, held, item.need});
   Index token = plan.tokens()[current].before;
   for (int back = 0; back < kTokensLookedBack && token != kNone; ++back, token = plan.tokens()[token].before)
@@ -244,12 +245,13 @@ void Successors::rest(const PartialPlan& plan, std::vector<Step>& out) {
   for (Index c = 0; c < ground_->model().components.size(); ++c) {
     const StateId state = plan.current_state(c);
     const StateKind kind = ground_->at(state).kind;
-    if (kind == StateKind::resting || kind == StateKind::error) continue;
+    const bool ended = plan.tokens()[plan.current(c)].ended != 0;
+    if ((kind == StateKind::resting || kind == StateKind::error) && !ended) continue;
     std::vector<std::pair<Index, StateId>> found;
     for (const StateId after : std::vector<StateId>(ground_->next(state))) {
       const Index left = ground_->distance_to_rest(after);
       if (left != kNone && ground_->at(after).kind != StateKind::complex &&
-          left < ground_->distance_to_rest(state))
+          (ended || left < ground_->distance_to_rest(state)))
         found.emplace_back(left, after);
     }
     std::ranges::stable_sort(found, {}, &std::pair<Index, StateId>::first);

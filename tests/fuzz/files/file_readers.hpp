@@ -11,6 +11,7 @@ namespace roci::fuzz {
 inline const std::map<std::string, std::string> kFileReaders{
     {"arm_svc/setup_file.cpp", "FuzzMissions.IsTakenOrRefusedWithItsPlace"},
     {"core/mission/entry.cpp", "FuzzMissions.IsTakenOrRefusedWithItsPlace"},
+    {"core/mission/model_text.cpp", "FuzzTimelineModels.ADamagedFileIsTakenOrRefusedWithItsPlace"},
     {"core/terrain/pgm.cpp", "FuzzMissions.IsTakenOrRefusedWithItsPlace"},
     {"dedicated_svc/call_record_service.cpp", "FuzzRunFiles.AreReadOrRefused"},
     {"exec_svc/journal/database.cpp", "FuzzJournal.ADamagedFileIsReadOrRefused"},
@@ -18,7 +19,6 @@ inline const std::map<std::string, std::string> kFileReaders{
     {"exec_svc/journal/high_water_mark.cpp", "FuzzRunFiles.AreReadOrRefused"},
     {"exec_svc/journal/first_page.cpp", "FuzzJournal.ADamagedFileIsReadOrRefused"},
     {"exec_svc/journal/salvage.cpp", "FuzzJournal.ADamagedFileIsReadOrRefused"},
-    {"exec_svc/mission/mission_model.cpp", "FuzzMissions.IsTakenOrRefusedWithItsPlace"},
     {"exec_svc/standby/persisted_term_file.cpp", "FuzzRunFiles.AreReadOrRefused"},
     {"exec_svc/trace/journal_reader.cpp", "FuzzRunFiles.ARecordedRunIsReadOrRefused"},
     {"exec_svc/trace/run_reader.cpp", "FuzzRunFiles.ARecordedRunIsReadOrRefused"},
@@ -29,7 +29,6 @@ inline const std::map<std::string, std::string> kFileReaders{
     {"ground_console/cli/runs.cpp", "FuzzRunFiles.AreReadOrRefused"},
     {"ground_console/lib/client.cpp", "- /proc, which the kernel writes"},
     {"planner_svc/network_store_service.cpp", "FuzzNetworkStore.ADamagedListIsTakenOrNamed"},
-    {"planner_svc/settings.cpp", "FuzzPddl.MutatedCorpusNeverCrashes"},
     {"planner_svc/temporal_pddl/cli/main.cpp", "FuzzPddl.MutatedCorpusNeverCrashes"},
     {"planner_svc/temporal_pddl/cli/progress_line.cpp", "- /proc/self, which the kernel writes"},
     {"planner_svc/temporal_pddl/cli/read_model.cpp", "FuzzPddl.MutatedCorpusNeverCrashes"},

@@ -6,6 +6,7 @@
 #include <random>
 #include <string>
 
+#include "core/mission/model_text.hpp"
 #include "planner_svc/timeline_htn/model/check.hpp"
 #include "planner_svc/timeline_htn/reading/load.hpp"
 #include "tests/fuzz/files/damage.hpp"
@@ -48,9 +49,25 @@ class FuzzTimelineModels : public testing::Test {
             use(timeline_htn::reading::load_model({folder_ / "problem.yaml"}, findings), findings))
             << name << ":\n"
             << text;
+        ASSERT_NO_FATAL_FAILURE(use_as_one_text(findings.errors() == 0)) << name << ":\n" << text;
       }
       write_bytes(folder_ / name, whole);
     }
+  }
+
+  // As a mission sends it: what is sound as files is so as one text, and the other way round.
+  void use_as_one_text(bool sound) const {
+    mission::Findings findings;
+    std::optional<timeline_htn::model::Model> model;
+    try {
+      const auto name = mission::Entry::parse("model: problem.yaml\n", (folder_ / "mission.yaml").string());
+      model =
+          timeline_htn::reading::parse_model({{"model", mission::model_text(name.at("model"))}}, findings);
+    } catch (const mission::FileError& error) {
+      findings.add(error.what());
+    }
+    ASSERT_NO_FATAL_FAILURE(use(model, findings));
+    ASSERT_EQ(model.has_value(), sound);
   }
 
   fs::path folder_;

@@ -252,6 +252,72 @@ const Checked& with_decisions() {
   return out;
 }
 
+// The arm is lifted on the way to the goal: also that waits for the radio, and a plan in which it may not is refused.
+TEST(TimelineChecker, WantsStepsTowardsGoalsToFollowWhatMends) {
+  const Checked plan(
+      parse("domain: d\ncomponents:\n"
+            "  radio:\n    layer: primitive\n    states: {fine: {kind: default}, broken: {kind: error}, "
+            "reset: {kind: simple, "
+            "duration_s: 60}}\n    transitions: [broken -> reset, reset -> fine]\n"
+            "  arm:\n    layer: primitive\n    states: {folded: {kind: default}, lift: {kind: simple, "
+            "duration_s: 5}, up: "
+            "{kind: default}, dig: {kind: simple, duration_s: 5}}\n"
+            "    transitions: [folded -> lift, lift -> up, up -> dig, dig -> folded]\n"
+            "behaviours:\n  mend: {triggers: [radio.broken], subgoals: {reset: radio.reset}}\n"
+            "problem:\n  horizon_s: 500\n  initial: {radio: broken, arm: folded}\n  goals: {g: arm.dig}\n"));
+  EXPECT_THAT(plan.faults(), IsEmpty());
+  EXPECT_THAT(plan.after([](auto& p) {
+    const auto ended = activity(p, "mend").end_point, started = activity(p, "arm.lift").start_point;
+    std::erase_if(p.constraints, [&](const auto& one) {
+      return std::minmax(one.from_point, one.to_point) == std::minmax(ended, started);
+    });
+  }),
+              Contains(HasSubstr("arm.lift (activity a3) may start before mend (activity a0) has ended")));
+}
+
+// What is needed of a timeline that is observed is waited for, whatever object a free name stands for.
+TEST(TimelineChecker, WantsActivitiesToWaitForWhatTheyNeed) {
+  const auto made = [](const std::string& need) {
+    return Checked(
+        parse("domain: d\ntypes: [place]\nobjects: {place: [a, b]}\ncomponents:\n"
+              "  base:\n    layer: primitive\n    states:\n"
+              "      at: {kind: default, parameters: {p: place, q: place}, observed: {timeline: nav, value: "
+              "\"parked(p, q)\"}}\n"
+              "      drive: {kind: simple, parameters: {p: place}, duration_s: 5, observed: {timeline: nav, "
+              "value: driving}}\n"
+              "    transitions: [\"at(x, y) -> drive(y)\", \"drive(x) -> at(x, x)\"]\n"
+              "  sky:\n    layer: primitive\n    states:\n      dark: {kind: default, observed: {timeline: "
+              "sun, value: false}}\n"
+              "      light: {kind: default, observed: {timeline: sun, value: true}}\n    transitions: [dark "
+              "-> light]\n"
+              "  arm:\n    layer: primitive\n    states:\n      folded: {kind: default}\n"
+              "      dig: {kind: simple, duration_s: 5, command: {owner: o, component: c, command: d}, "
+              "needs: [\"during " +
+              need +
+              "\", at_start sky.light]}\n    transitions: [folded <-> dig]\n"
+              "problem:\n  horizon_s: 500\n  initial: {base: \"at(a, b)\", sky: dark, arm: folded}\n"
+              "  goals: {d: base.drive(b), g: {state: arm.dig, after: [d]}}\n"));
+  };
+  const Checked any = made("base.at(x, y)"), half = made("base.at(x, b)");
+  EXPECT_THAT(any.faults(), IsEmpty());
+  EXPECT_THAT(half.faults(), IsEmpty());
+  any.after([](auto& p) {
+    EXPECT_EQ(temporal::describe(activity(p, "arm.dig").maintenance), "nav = parked");
+    EXPECT_EQ(temporal::describe(activity(p, "arm.dig").pre), "nav = parked and sun = true");
+  });
+  half.after([](auto& p) {
+    EXPECT_EQ(temporal::describe(activity(p, "arm.dig").maintenance),
+              "nav = parked(a, b) or nav = parked(b, b)");
+  });
+  EXPECT_THAT(any.after([](auto& p) { activity(p, "arm.dig").maintenance = {}; }),
+              Contains(HasSubstr("does not wait for what it needs of base: it permits base.drive(b)")));
+  EXPECT_THAT(any.after([](auto& p) {
+    activity(p, "arm.dig").pre =
+        temporal::compare("nav", temporal::ConditionOp::eq, temporal::state("parked", {"a", "a"}));
+  }),
+              Contains(HasSubstr("is false in base.at(b, b), which meets its need")));
+}
+
 TEST(TimelineChecker, HoldsDecisionsAgainstThoseOfTheBehaviour) {
   const auto& plan = with_decisions();
   EXPECT_THAT(plan.faults(), IsEmpty());

@@ -74,7 +74,8 @@ TEST(TimelineModelFaults, NumbersAndLinesAreToldWithPlaceAndRemedy) {
        "a default state lasts as long as nothing else is asked"},
       {"kind: complex, ", "kind: complex, duration_s: 5, ", "a complex state has no 'duration_s'"},
       {"format: 1", "format: 2", "m.yaml:1:9: this form is newer than 1"},
-      {"format: 1", "include: x.yaml", "a text that came without a folder includes no files"},
+      {"format: 1", "include: x.yaml",
+       "m.yaml:1:10: a text that came without a folder includes only what came with it"},
       {"[wp0, wp1]]}\nnumbers", "[wp0, wp1]}\nnumbers", "not valid YAML"},
   });
 }

@@ -45,7 +45,7 @@ class RandomProblem {
              ", " + std::to_string(shortest + number(0, 4)) + "]";
       if (!other.empty() && chance(50))
         out +=
-            ", needs: [" + one_of({"during", "at_start"}) + " " + other + "." + one_of(states_[other]) + "]";
+            ", needs: [" + one_of({"during", "at_start", "met_by"}) + " " + other + "." + one_of(states_[other]) + "]";
       out += "}\n";
     }
     std::string transitions = "\"idle -> a\", \"b -> " + one_of({"idle", "a"}) + "\", \"a -> " +

@@ -189,6 +189,61 @@ TEST(TimelineSearch, AnErrorLeadsToTheBehaviourThatMendsIt) {
             (*times)[result.find("free")->end_point]);
 }
 
+// A step on the way to the goal is not the goal, and waits like it. What the timeline goes on with at once does not.
+TEST(TimelineSearch, StepsTowardsAGoalWaitForWhatMends) {
+  const std::string domain =
+      "domain: d\ncomponents:\n"
+      "  radio:\n    layer: primitive\n    states: {fine: {kind: default}, broken: {kind: error}, reset: "
+      "{kind: "
+      "simple, duration_s: 60}}\n"
+      "    transitions: [broken -> reset, reset -> fine]\n"
+      "  arm:\n    layer: primitive\n    states: {folded: {kind: default}, lift: {kind: simple, duration_s: "
+      "5}, wave: "
+      "{kind: simple, duration_s: 5}, up: {kind: default}, dig: {kind: simple, duration_s: 5}}\n"
+      "    transitions: [folded -> lift, lift -> up, up -> dig, dig -> folded, lift -> wave, wave -> "
+      "folded]\n";
+  const auto schedule = [&](const std::string& behaviour, const std::string& goal) {
+    const auto result = planned(model_of(
+        {domain + "behaviours:\n  mend: {triggers: [radio.broken], " + behaviour +
+         "}\nproblem:\n  horizon_s: 500\n  initial: {radio: broken, arm: folded}\n  goals: {g: " + goal +
+         "}\n"}));
+    EXPECT_EQ(result.outcome, Outcome::solved) << result.reason;
+    std::map<std::string, double> out;
+    if (!result.plan) return out;
+    const auto times =
+        temporal::earliest_schedule(result.plan->point_count, temporal::all_constraints(*result.plan));
+    for (const auto& activity : result.plan->activities)
+      out.emplace(activity.name, temporal::to_seconds((*times)[activity.start_point]));
+    return out;
+  };
+  const auto apart = schedule("subgoals: {reset: radio.reset}", "arm.dig");
+  EXPECT_EQ(apart.at("mend"), 0);
+  EXPECT_GE(apart.at("arm.lift"), 60);
+  EXPECT_EQ(apart.at("arm.dig"), apart.at("arm.lift") + 5);
+  const auto within = schedule("subgoals: {lift: arm.lift, reset: radio.reset}", "arm.dig");
+  EXPECT_EQ(within.at("arm.lift"), 0) << "of the mending, so the arm is lifted at once";
+  EXPECT_GE(within.at("arm.dig"), 60) << "a goal";
+  const auto on = schedule("subgoals: {lift: arm.lift, reset: radio.reset}", "arm.folded");
+  EXPECT_EQ(on.at("arm.wave"), 5) << "nothing else can follow";
+}
+
+// A state to rest in that is to end where another begins is left for it.
+TEST(TimelineSearch, ADefaultStateIsLeftForWhatItIsToEndFor) {
+  const auto result = planned(model_of(
+      {"domain: d\ncomponents:\n"
+       "  gate:\n    layer: primitive\n    states: {closed: {kind: default}, opening: {kind: simple, "
+       "duration_s: 5}, "
+       "open: {kind: default}}\n    transitions: [closed -> opening, opening -> open, open -> closed]\n"
+       "  car:\n    layer: primitive\n    states: {out: {kind: default}, enter: {kind: simple, duration_s: "
+       "3, needs: "
+       "[met_by gate.closed]}}\n    transitions: [out <-> enter]\n"
+       "problem:\n  horizon_s: 100\n  initial: {gate: closed, car: out}\n  goals: {a: car.enter, b: {state: "
+       "car.enter, after: [a]}}\n"}));
+  ASSERT_EQ(result.outcome, Outcome::solved) << result.reason;
+  EXPECT_THAT(result.names(), IsSupersetOf({"car.enter", "gate.opening"}));
+  EXPECT_EQ(std::ranges::count(result.names(), "gate.opening"), 2) << "once for each";
+}
+
 TEST(TimelineSearch, WhatCannotBeIsProvedWithItsReason) {
   const auto reason = [](const std::string& behaviours, const std::string& problem) {
     const auto result = planned(model_of({kRovers, behaviours, problem}));
