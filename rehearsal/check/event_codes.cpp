@@ -5,7 +5,7 @@ namespace roci::rehearsal::check {
 const std::vector<std::string>& event_codes() {
   // clang-format off
   static const std::vector<std::string> codes = {
-      "ack.foreign", "answer.no_room", "calls.damaged", "calls.settling", "calls.unwritten", "clock.drift", "clock.offset", "clock.set", "command.epoch_jump",
+      "ack.foreign", "answer.no_room", "calls.damaged", "calls.resumed", "calls.settling", "calls.unwritten", "clock.drift", "clock.offset", "clock.set", "command.epoch_jump",
       "command.foreign", "commander.doubled", "contract.mismatch", "datagram.refused", "epoch.refused",
       "epoch.taken", "executive.resumed", "fact.left_out", "fallback.failed", "goal.accepted",
       "goal.achieved", "goal.dropped", "goal.failed", "goal.merged", "goal.no_room", "goal.recalled",
