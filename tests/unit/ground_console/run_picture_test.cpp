@@ -36,6 +36,7 @@ const char* kTwoRovers =
     "15000000 observation scout.locomotion scouting(w0, w1) sampled 15000000\n"
     "15000000 observation scout.x 8 sampled 15000000\n"
     "15000000 observation scout.y 15 sampled 15000000\n"
+    "15000000 ack p1.1-scout(w0, w1) 1 stage=0 scout.locomotion  \n"
     "20000000 ack p1.1-scout(w0, w1) 1 stage=0 scout.locomotion repairing drive: no-go\n"
     "30000000 observation scout.locomotion scouting(w0, w1) sampled 30000000\n"
     "60000000 ack p1.1-scout(w0, w1) 1 stage=2 scout.locomotion done \n"
