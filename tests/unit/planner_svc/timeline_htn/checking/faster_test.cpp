@@ -139,7 +139,7 @@ TEST(FasterModel, WayPointsLieAtMostFourMetresApart) {
   const model::NumberTable& metres = model.numbers[0];
   for (const auto& [row, length] : metres.rows)
     EXPECT_LE(length, 4.0) << model.objects[row[0]].name << " to " << model.objects[row[1]].name;
-  EXPECT_EQ(metres.rows.size(), 58U) << "29 ways, in both directions";
+  EXPECT_EQ(metres.rows.size(), 82U) << "41 ways, in both directions";
 }
 
 }  // namespace
