@@ -413,6 +413,36 @@ bool PartialPlan::decompose(Index activity, Index behaviour_index, Index binding
   if (!add_part_constraints(activity, behaviour, objects, first))
     return refuse({Obstacle::Kind::time, goal_of(activity), activities_[activity].state, behaviour_index,
                    kNone, kNone});
+  return std::ranges::all_of(behaviour.decisions, [&](const model::Decision& decision) {
+    return !decision.over || add_choices(activity, behaviour, decision, objects, first);
+  });
+}
+
+// What is done first of each object that the plan does not reckon with stands beside the timelines, behind the decision.
+bool PartialPlan::add_choices(Index activity, const Behaviour& behaviour, const model::Decision& decision,
+                              const std::vector<Index>& objects, Index first) {
+  const Activity& at = activities_[decision.before.subgoal ? first + *decision.before.subgoal : activity];
+  const TimePoint point = decision.before.end ? at.end : at.start;
+  for (const Index object : admissible(*ground_, behaviour, *decision.variable, objects)) {
+    if (object == objects[*decision.variable]) continue;
+    std::vector<Index> other = objects;
+    other[*decision.variable] = object;
+    std::vector<StateId> states;
+    for (const Index subgoal : decision.subgoals)
+      states.push_back(ground_->find(ground_of(behaviour.subgoals[subgoal].state, other)));
+    if (std::ranges::find(states, kNone) != states.end()) continue;
+    for (std::size_t i = 0; i < states.size(); ++i) {
+      const Index part = add_activity(states[i], activity);
+      if (part == kNone) return false;
+      activities_[part].subgoal = decision.subgoals[i];
+      activities_[part].choice = object;
+      activities_[part].beside = activities_[part].placed = true;
+      if (!constrain(point, activities_[part].start, Duration{0}) ||
+          !constrain(activities_[activity].start, activities_[part].start, Duration{0}) ||
+          !constrain(activities_[part].end, activities_[activity].end, Duration{0}))
+        return false;
+    }
+  }
   return true;
 }
 
@@ -456,7 +486,7 @@ bool PartialPlan::add_parts(Index activity, const Behaviour& behaviour, const st
           {Obstacle::Kind::no_state, goal_of(activity), activities_[activity].state, own, i, kNone});
     model::Bounds bounds = ground_->at(state).bounds;
     for (const model::Decision& decision : behaviour.decisions)
-      if (decision.variable) widen(bounds, behaviour, *decision.variable, pattern, objects);
+      if (decision.binds()) widen(bounds, behaviour, *decision.variable, pattern, objects);
     const Index part =
         add_activity(state, activity, ground_->at(state).kind == StateKind::simple ? &bounds : nullptr);
     if (part == kNone) return false;
