@@ -210,8 +210,8 @@ struct Decision {
   std::vector<Choice> choices;
   std::optional<Index> variable;
   bool over = false;  ///< each object of the variable is a choice: what is planned behind it depends on it
-  std::vector<Index>
-      subgoals;  ///< of a decision over a variable: what is done of each choice before the plan is refined
+  /// Of a decision over a variable: what is done of each choice before the plan is refined.
+  std::vector<Index> subgoals;
 
   /// Returns whether some answer leaves undone what is planned behind the decision.
   bool may_end_plan() const {
