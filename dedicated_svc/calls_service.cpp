@@ -1,10 +1,12 @@
 #include "dedicated_svc/calls_service.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <system_error>
 #include <utility>
 
+#include "core/terrain/way.hpp"
 #include "dedicated_svc/limits.hpp"
 #include "services/node/make_event.hpp"
 #include "services/publisher.hpp"
@@ -23,6 +25,31 @@ std::optional<double> number_of(const std::string& text) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(number)) return {};
   return number;
+}
+
+terrain::Way way_of(const v1::PathReply& reply) {
+  terrain::Way way;
+  for (const v1::Pose2& one : reply.waypoints()) way.push_back({one.x_m(), one.y_m()});
+  return way;
+}
+
+// Adds the way and where and how it ends; one without a leg ends as it began.
+void add_way(const terrain::Way& way, double first_heading, std::map<std::string, Value>& values) {
+  values["way"] = temporal::state(terrain::to_text(way), {});
+  values["end_x"] = way.back().x;
+  values["end_y"] = way.back().y;
+  values["end_heading_rad"] = terrain::heading_at_end(way, first_heading);
+}
+
+// Says in words that the map of another robot, on which a path stands, is too old; empty: it is not.
+std::string age_fault(const methods::PathCall& call, temporal::Time now) {
+  if (call.map_told_s.empty()) return {};
+  const auto told = number_of(call.map_told_s);
+  if (!told) return "when its map was told is no number: " + call.map_told_s;
+  const temporal::Duration age = now - temporal::seconds(*told);
+  if (age <= call.map_within) return {};
+  return "the newest map that was merged is " + std::to_string(temporal::to_seconds(age)) +
+         " s old, and may be " + std::to_string(temporal::to_seconds(call.map_within)) + " s";
 }
 
 const char* error_of(v1::MotionOutcome outcome) {
@@ -75,32 +102,65 @@ Calls::Calls(services::Node& node, CallRecord& record, Spots objects)
   });
 }
 
-void Calls::begin(const method_run::Ask& ask, const services::owner::Request& above, OnAnswer on_answer) {
+std::string Calls::activity_of(const services::owner::Request& above, std::uint32_t number) {
+  return above.key.commander + "/" + std::to_string(above.key.issued_epoch) + "/" + above.key.activity + "/" +
+         std::to_string(number);
+}
+
+void Calls::set(const method_run::Ask& ask, const services::owner::Request& above, temporal::Time begun,
+                OnAnswer on_answer) {
   call_ = ask.call;
   above_ = above;
-  // Unique over the commanders from above and their epochs, and the same whenever this command is carried out again.
-  activity_ = above.key.commander + "/" + std::to_string(above.key.issued_epoch) + "/" + above.key.activity +
-              "/" + std::to_string(ask.number);
+  activity_ = activity_of(above, ask.number);
   on_answer_ = std::move(on_answer);
+  begun_ = begun;
   timed_out_ = false;
+  lacks_pose_ = false;
   ++serial_;
-  timer_ = node_.after(call_.within, [this] { time_out(); });
+  timer_ = node_.at(temporal::plus(begun, call_.within), [this] { time_out(); });
+}
+
+void Calls::begin(const method_run::Ask& ask, const services::owner::Request& above, OnAnswer on_answer) {
+  if (ask.number == 1) patient_ = false;
+  set(ask, above, node_.now(), std::move(on_answer));
   std::visit([this](const auto& call) { start(call); }, call_.what);
 }
 
-void Calls::start(const methods::CommandCall& call) {
-  commands_.call({call.owner, call.robot, call.subsystem, call.command, call.arguments, activity_,
-                  above_.key.attempt, above_.plan, above_.latest_end},
-                 [this](const Word& word) {
-                   keep([this] { record_.end(); });
-                   Answer result = answer_of(word);
-                   if (timed_out_ && word.stage == Stage::cancelled)
-                     result.error = "call-timeout", result.reason = "it took longer than it may";
-                   answer(std::move(result));
-                 });
+void Calls::resume(const method_run::Ask& ask, const services::owner::Request& above, temporal::Time begun,
+                   OnAnswer on_answer) {
+  patient_ = true;
+  set(ask, above, begun, std::move(on_answer));
+  const auto* command = std::get_if<methods::CommandCall>(&call_.what);
+  if (command && record_.open()) return commands_.adopt(*record_.open(), sent_as(*command), on_command_end());
+  std::visit([this](const auto& call) { start(call); }, call_.what);
+}
+
+services::commander::Call Calls::sent_as(const methods::CommandCall& call) const {
+  return {call.owner, call.robot,         call.subsystem, call.command,     call.arguments,
+          activity_,  above_.key.attempt, above_.plan,    above_.latest_end};
+}
+
+services::commander::CommandClient::OnEnd Calls::on_command_end() {
+  return [this](const Word& word) {
+    Answer result = answer_of(word);
+    if (timed_out_ && (word.stage == Stage::cancelled || word.stage == Stage::unknown))
+      result.error = "call-timeout", result.reason = "it took longer than it may";
+    answer(std::move(result));
+  };
+}
+
+void Calls::start(const methods::CommandCall& call) { commands_.call(sent_as(call), on_command_end()); }
+
+// After a death poses are heard again, sooner or later.
+bool Calls::waits_for_pose(std::initializer_list<const methods::Place*> places) {
+  lacks_pose_ = patient_ && std::ranges::any_of(places, [this](const methods::Place* place) {
+                  return !place->robot.empty() && !spot_of(*place);
+                });
+  return lacks_pose_;
 }
 
 void Calls::start(const methods::PathCall& call) {
+  if (waits_for_pose({&call.from, &call.to})) return;
   const auto from = spot_of(call.from);
   const auto to = spot_of(call.to);
   if (!from || !to) return answer_soon({"no-place", "a place of the path is not known", {}, {}});
@@ -129,11 +189,21 @@ void Calls::take_path(const services::CallResult<v1::PathReply>& result) {
     out.values["next_x"] = reply.waypoints()[1].x_m();
     out.values["next_y"] = reply.waypoints()[1].y_m();
   }
+  const auto& call = std::get<methods::PathCall>(call_.what);
+  if (const std::string fault = age_fault(call, node_.now()); out.error.empty() && !fault.empty())
+    return answer({"map-too-old", fault, std::move(out.values), {}});
+  const terrain::Way way = way_of(reply);
+  if (!std::ranges::all_of(way, [](terrain::Point p) { return std::isfinite(p.x) && std::isfinite(p.y); }))
+    return answer({error_of(v1::MOTION_INVALID), "its way-points are no finite numbers", {}, {}});
+  if (out.error.empty() && !way.empty() && way.size() <= kWayPoints)
+    add_way(terrain::cut_short(way, call.short_m), reply.waypoints()[0].heading_rad(), out.values);
   answer(std::move(out));
 }
 
 void Calls::start(const methods::TransformCall& call) {
-  const auto robot = spot_of({"", call.robot, "", ""});
+  const methods::Place origin{"", call.robot, "", ""};
+  if (waits_for_pose({&origin, &call.place})) return;
+  const auto robot = spot_of(origin);
   const auto place = spot_of(call.place);
   if (!robot || !place)
     return answer_soon({"no-pose", "a pose was never observed, or a place is unknown", {}, {}});
@@ -152,10 +222,14 @@ void Calls::start(const methods::TransformCall& call) {
 
 void Calls::start(const methods::ObserveCall&) { look(); }
 
-void Calls::start(const methods::WaitCall& call) { answer_after(call.time, {}); }
+void Calls::start(const methods::WaitCall& call) {
+  answer_after(std::max(temporal::Duration(0), temporal::plus(begun_, call.time) - node_.now()), {});
+}
 
 // What is awaited may be so already, or become so by any observation.
 void Calls::look() {
+  if (std::exchange(lacks_pose_, false))
+    return std::visit([this](const auto& one) { start(one); }, call_.what);
   const auto* call = std::get_if<methods::ObserveCall>(&call_.what);
   if (!call) return;
   const auto seen = observed_.find(call->timeline);
@@ -174,6 +248,7 @@ void Calls::time_out() {
 
 void Calls::break_off() {
   if (!on_answer_) return;
+  lacks_pose_ = false;
   if (std::holds_alternative<methods::CommandCall>(call_.what))
     return commands_.cancel(activity_, above_.key.attempt);
   if (std::holds_alternative<methods::PathCall>(call_.what)) paths_.cancel(path_);

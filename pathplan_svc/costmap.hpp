@@ -51,8 +51,10 @@ class Costmap {
   const terrain::Grid& grid() const { return grid_; }
   const RoverLimits& limits() const { return limits_; }
 
-  /// Returns a number that starts at 1 and grows with each change of a cell.
+  /// Returns a number that grows with each change of a cell, from 1 on if nothing else is said.
   std::uint64_t version() const { return version_; }
+  /// Is said before the first change.
+  void count_versions_from(std::uint64_t first) { version_ = first; }
 
   CellState state(std::size_t index) const { return state_[index]; }
   CellState state(terrain::Cell c) const {

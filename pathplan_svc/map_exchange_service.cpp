@@ -1,7 +1,12 @@
 #include "pathplan_svc/map_exchange_service.hpp"
 
+#include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <utility>
 
+#include "core/words/nearest_word.hpp"
+#include "pathplan_svc/limits.hpp"
 #include "services/node/make_event.hpp"
 
 namespace roci::pathplan {
@@ -9,6 +14,16 @@ namespace {
 
 namespace owner = services::owner;
 namespace topics = services::topics;
+
+constexpr double kLongestWait = 1e7;      // seconds
+constexpr double kLargestVersion = 1e15;  // a double holds each version up to it
+
+std::optional<double> number_in(const std::string& text) {
+  double number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(number)) return {};
+  return number;
+}
 
 ObstacleKind kind_of(v1::ObstacleKind kind) {
   return kind == v1::OBSTACLE_SOIL ? ObstacleKind::soil : ObstacleKind::rock;
@@ -48,14 +63,19 @@ v1::MapObstacle to_wire(const FoundObstacle& one) {
 }  // namespace
 
 MapExchange::MapExchange(services::Node& node, const MapSettings& settings, const terrain::Grid& grid,
-                         const std::map<std::string, std::string>& team, Host host)
+                         const Team& team, Host host)
     : node_(node),
       settings_(settings),
       host_(std::move(host)),
-      map_(node.options().robot, grid, team),
+      planners_(team.planners),
+      map_(node.options().robot, grid, team.robots),
       events_(services::advertise(node, topics::event)) {
   services::subscribe(node, topics::terrain_finding, [this](const v1::TerrainFinding& one) { hear(one); });
   services::subscribe(node, topics::map_patch, [this](const v1::MapPatch& patch) { hear(patch); });
+  if (!node.options().robot.empty()) {
+    known_maps_ = services::advertise(node, topics::known_map);
+    node.after(temporal::Duration{0}, [this] { show(); });
+  }
   if (settings_.telling == Telling::never) return;
   patches_ = services::advertise(node, topics::map_patch);
   commands_.emplace(node, static_cast<owner::Driver&>(*this));
@@ -73,6 +93,7 @@ void MapExchange::hear(const v1::TerrainFinding& finding) {
     return refuse("map.finding_refused", "finding " + id, finding.robot(), intake.refusal);
   if (!intake.changed) return;
   host_.changed();
+  show();
   if (settings_.telling == Telling::at_once) tell({});
 }
 
@@ -80,21 +101,34 @@ void MapExchange::hear(const v1::MapPatch& patch) {
   if (patch.header().sender() == node_.options().name) return;
   MapPatch in{
       patch.author(), patch.header().robot(), {patch.header().incarnation(), patch.header().seq()}, {}};
+  in.map_version = patch.map_version();
+  in.told = std::min(temporal::Time{patch.header().stamp_us()}, node_.now());
   const std::string who = in.author.substr(0, SharedMap::kNameBytes);
+  const std::string sender = patch.header().sender().substr(0, SharedMap::kNameBytes);
+  const bool genuine = patch.header().sender() == in.author;
   const std::string what = "patch " + std::to_string(in.number.second) + " of " + who;
-  const auto refused = [&](const std::string& why) { refuse("map.patch_refused", what, who, why); };
-  if (patch.header().sender() != in.author) return refused("it comes from '" + patch.header().sender() + "'");
+  const auto refused = [&](const std::string& why) {
+    refuse("map.patch_refused", what, genuine ? who : sender + " as " + who, why);
+  };
+  if (!genuine) return refused("it comes from '" + sender + "'");
   if (patch.obstacles().size() > SharedMap::kMost)
     return refused("it holds more than " + std::to_string(SharedMap::kMost) + " obstacles");
   if (host_.busy()) return refused("it comes while the map is being built; send it again");
   for (const v1::MapObstacle& one : patch.obstacles()) in.obstacles.push_back(obstacle_of(one));
   const Intake intake = map_.take(in);
   if (!intake.refusal.empty()) return refused(intake.refusal);
-  if (!intake.changed) return;
+  taken_at_[in.author] = node_.now();
+  if (intake.changed) take_over(patch, in, what);
+  show();
+  end_merges();
+}
+
+void MapExchange::take_over(const v1::MapPatch& patch, const MapPatch& in, const std::string& what) {
   report(
       v1::SEVERITY_INFO, "map.patch_taken",
       what + " brings the map of " + in.robot + " up to its version " + std::to_string(patch.map_version()),
-      {{"author", who}, {"map_version", std::to_string(patch.map_version())}});
+      {{"author", in.author.substr(0, SharedMap::kNameBytes)},
+       {"map_version", std::to_string(patch.map_version())}});
   host_.changed();
 }
 
@@ -107,26 +141,50 @@ void MapExchange::tell(const std::function<void(std::uint64_t, std::size_t)>& to
     const std::size_t count = patch.obstacles().size();
     patch.map_version(version);
     patches_->write(std::move(patch));
+    told_version_ = version;
+    told_us_ = node_.now().count();
     report(v1::SEVERITY_INFO, "map.told",
            "the team is told of " + std::to_string(count) + " obstacles of the map's version " +
                std::to_string(version),
            {{"map_version", std::to_string(version)}, {"obstacles", std::to_string(count)}});
     if (told) told(version, count);
+    show();
+  });
+}
+
+// For who watches; the version is that of the map with all of it.
+void MapExchange::show() {
+  if (!known_maps_) return;
+  v1::KnownMap known;
+  known.planner(node_.options().name);
+  for (const FoundObstacle& one : map_.all()) known.obstacles().push_back(to_wire(one));
+  host_.settled([this, known = std::move(known)](std::uint64_t version) mutable {
+    known.map_version(version);
+    known.told_version(told_version_);
+    known.told_us(told_us_);
+    for (const auto& [author, at] : taken_at_) {
+      const TakenPatch* patch = map_.newest(author);
+      if (patch == nullptr) continue;
+      v1::TakenPatch& taken = known.taken().emplace_back();
+      taken.author(author);
+      taken.map_version(patch->map_version);
+      taken.taken_us(at.count());
+    }
+    known_maps_->write(std::move(known));
   });
 }
 
 void MapExchange::carry_out(const owner::Request& request) {
-  const owner::CommandKey key = request.key;
-  if (request.subsystem != settings_.subsystem || request.command != "tell") {
-    commands_->say(key,
-                   {owner::Stage::rejected,
-                    "unknown-command",
-                    "the path planner has '" + settings_.subsystem + "' with the command tell, and no '" +
-                        request.subsystem + "' with '" + request.command + "'",
-                    {}});
-    return;
-  }
-  commands_->say(key, {owner::Stage::accepted, "", "", {}});
+  const bool mine = request.subsystem == settings_.subsystem;
+  if (mine && request.command == "merge") return merge(request);
+  if (mine && request.command == "tell") return tell_as_commanded(request.key);
+  say(request.key, owner::Stage::rejected, "unknown-command",
+      "the path planner has '" + settings_.subsystem + "' with the commands tell and merge, and no '" +
+          request.subsystem + "' with '" + request.command + "'");
+}
+
+void MapExchange::tell_as_commanded(const owner::CommandKey& key) {
+  say(key, owner::Stage::accepted);
   tell([this, key](std::uint64_t version, std::size_t obstacles) {
     owner::Word word{owner::Stage::completed, "", "", {}};
     word.results.values = {{"map_version", static_cast<double>(version)},
@@ -135,8 +193,79 @@ void MapExchange::carry_out(const owner::Request& request) {
   });
 }
 
-void MapExchange::break_off(const owner::CommandKey& key, const owner::Word&) {
-  commands_->refuse_cancel(key, "a map is told at once");
+void MapExchange::merge(const owner::Request& request) {
+  const auto rejected = [&](const std::string& code, const std::string& why) {
+    say(request.key, owner::Stage::rejected, code, why);
+  };
+  const auto text_of = [&](const std::string& name, const std::string& otherwise) {
+    const auto found = request.arguments.find(name);
+    return found == request.arguments.end() ? otherwise : found->second;
+  };
+  const std::string author = text_of("author", "");
+  if (author == node_.options().name || std::ranges::find(planners_, author) == planners_.end())
+    return rejected("unknown-author", "'" + author.substr(0, SharedMap::kNameBytes) +
+                                          "' is no other path planner of the team; name one as author" +
+                                          words::did_you_mean(author, planners_));
+  const auto version = number_in(text_of("version", "0")), within = number_in(text_of("within_s", "600"));
+  if (!version || *version < 0 || *version != std::floor(*version) || *version > kLargestVersion)
+    return rejected("bad-arguments", "the version is that of the author's map, as its command tell told it");
+  if (!within || *within <= 0 || *within > kLongestWait)
+    return rejected("bad-arguments", "within_s is a positive time in seconds");
+  if (merges_.size() >= kMerges)
+    return rejected("busy", std::to_string(kMerges) + " merges wait already; cancel some");
+  say(request.key, owner::Stage::accepted);
+  const temporal::Time until = node_.now() + temporal::seconds(*within);
+  merges_.push_back({request.key, author, static_cast<std::uint64_t>(*version),
+                     node_.at(std::min(until, request.latest_end.value_or(until)),
+                              [this, key = request.key] { give_up(key); })});
+  end_merges();
+}
+
+// Those whose patch is there are completed when it is in the map, too.
+void MapExchange::end_merges() {
+  std::erase_if(merges_, [this](const Merge& one) {
+    const TakenPatch* patch = map_.newest(one.author);
+    if (patch == nullptr || patch->map_version < one.version) return false;
+    node_.cancel(one.timer);
+    host_.settled([this, key = one.key, patch = *patch](std::uint64_t version) {
+      owner::Word word{owner::Stage::completed, "", "", {}};
+      word.results.values = {{"map_version", static_cast<double>(version)},
+                             {"obstacles", static_cast<double>(map_.all().size())},
+                             {"author_version", static_cast<double>(patch.map_version)},
+                             {"told_s", temporal::to_seconds(patch.told)},
+                             {"age_s", temporal::to_seconds(node_.now() - patch.told)}};
+      commands_->say(key, std::move(word));
+    });
+    return true;
+  });
+}
+
+void MapExchange::give_up(const owner::CommandKey& key) {
+  const auto merge = std::ranges::find(merges_, key, &Merge::key);
+  if (merge == merges_.end()) return;
+  const TakenPatch* patch = map_.newest(merge->author);
+  const std::string why =
+      "no patch of " + merge->author + " with version " + std::to_string(merge->version) + " came; " +
+      (patch == nullptr ? std::string("it has told none")
+                        : "the newest that was taken has version " + std::to_string(patch->map_version));
+  merges_.erase(merge);
+  say(key, owner::Stage::failed, "patch-missing", why);
+}
+
+void MapExchange::break_off(const owner::CommandKey& key, const owner::Word& why) {
+  const auto merge = std::ranges::find(merges_, key, &Merge::key);
+  if (merge == merges_.end()) {
+    commands_->refuse_cancel(key, "a map is told at once, and a patch that is there is merged at once");
+    return;
+  }
+  node_.cancel(merge->timer);
+  merges_.erase(merge);
+  commands_->say(key, why);
+}
+
+void MapExchange::say(const owner::CommandKey& key, owner::Stage stage, const std::string& code,
+                      const std::string& reason) {
+  commands_->say(key, {stage, code, reason, {}});
 }
 
 // Told the first time, the tenth, the hundredth and so on, by who it came from.

@@ -81,6 +81,7 @@ PathPlanner::PathPlanner(const terrain::Site& site, const RoverLimits& limits, c
       settings_(settings),
       search_(map_, drive_),
       regions_(map_) {
+  map_.count_versions_from(settings_.first_version);
   if (map_.unknown_cells() > 0) hoped_for_.emplace(map_, Regions::Ground::hoped_for);
   // A path leads over free ground, and out of margin.
   double least = std::numeric_limits<double>::infinity();

@@ -16,9 +16,10 @@ namespace roci::pathplan {
 /// Bounds the work of a planner and shapes its way-points.
 struct PlannerSettings {
   CorridorSettings corridor;
-  double waypoint_spacing = 4.0;  ///< m
-  double max_piece = 60.0;        ///< Shortcuts try no longer straight piece, m.
-  std::size_t max_corners = 60;   ///< Bounds a path before shortcuts.
+  double waypoint_spacing = 4.0;    ///< m
+  double max_piece = 60.0;          ///< Shortcuts try no longer straight piece, m.
+  std::size_t max_corners = 60;     ///< Bounds a path before shortcuts.
+  std::uint64_t first_version = 1;  ///< that the map has before it changes
 };
 
 /// Says what a planner did, for tests and measurements.

@@ -1,5 +1,6 @@
 #include "pathplan_svc/pathplan_service.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -34,11 +35,12 @@ namespace topics = services::topics;
 class PathplanService : public services::Service {
  public:
   PathplanService(services::Node& node, const terrain::Site& site, const Rover& rover, const MapSettings& map,
-                  const std::map<std::string, std::string>& team, const std::filesystem::path& run_folder)
+                  const Team& team, const std::filesystem::path& run_folder)
       : node_(node),
         hazard_file_(run_folder.empty() ? run_folder : run_folder / (node.options().name + ".hazards")),
         keep_out_(rover.keep_out),
-        planner_(site, rover.limits, rover.drive, {}, rover.keep_out_polygons),
+        planner_(site, rover.limits, rover.drive, settings_of(map, node.options().incarnation),
+                 rover.keep_out_polygons),
         offers_(services::advertise(node, topics::function_offer)),
         events_(services::advertise(node, topics::event)),
         exchange_(node, map, planner_.map().grid(), team, host()),
@@ -57,6 +59,14 @@ class PathplanService : public services::Service {
   }
 
  private:
+  // Who is told a map and its version may have heard of an earlier life.
+  static PlannerSettings settings_of(const MapSettings& map, std::uint32_t incarnation) {
+    PlannerSettings out;
+    if (map.telling != Telling::never)
+      out.first_version = (std::max(incarnation, 1U) - 1) * kVersionsOfALife + 1;
+    return out;
+  }
+
   MapExchange::Host host() {
     return {[this] { return map_changes_ >= kMapChanges; }, [this] { update_map(); },
             [this](std::function<void(std::uint64_t)> then) {
@@ -167,6 +177,7 @@ class PathplanService : public services::Service {
       if (one.cleared) continue;
       hazards.push_back({{"found_by", one.finder},
                          {"id", one.id},
+                         {"kind", one.kind == ObstacleKind::soil ? "soil" : "rock"},
                          {"x_m", one.disc.centre.x},
                          {"y_m", one.disc.centre.y},
                          {"radius_m", one.disc.radius}});
@@ -207,9 +218,13 @@ std::unique_ptr<services::Service> make_service(services::Node& node, const serv
   if (map && node.options().robot.empty())
     map->fail(
         "only the path planner of a robot tells of its map; name its robot in services, or drop the key");
-  std::map<std::string, std::string> team;
-  for (const mission::ServiceEntry& one : mission::load_service_list_if_any(settings.mission).services)
-    team.emplace(one.name, one.robot);
+  const mission::ServiceList list = mission::load_service_list_if_any(settings.mission);
+  const mission::ServiceEntry* own = list.find(node.options().name);
+  Team team;
+  for (const mission::ServiceEntry& one : list.services) {
+    team.robots.emplace(one.name, one.robot);
+    if (own && one.program == own->program && !one.robot.empty()) team.planners.push_back(one.name);
+  }
   return std::make_unique<PathplanService>(node, terrain::load_site(site.resolve(site.text())),
                                            rover ? read_rover(*rover) : Rover{}, map_settings, team,
                                            settings.run_folder);

@@ -33,7 +33,7 @@ Intake SharedMap::take(const MapPatch& patch) {
     return {
         "its author is no service of the team's robots; add it to the mission's services, with its robot"};
   const auto newest = newest_.find(patch.author);
-  if (newest != newest_.end() && patch.number < newest->second)
+  if (newest != newest_.end() && patch.number < newest->second.number)
     return {"a newer one of the same author is known"};
   std::set<Key> keys;
   for (const auto& [key, one] : known_) keys.insert(key);
@@ -44,11 +44,16 @@ Intake SharedMap::take(const MapPatch& patch) {
   }
   if (patch.obstacles.size() > kMost || keys.size() > kMost)
     return {"with it more than " + std::to_string(kMost) + " obstacles would be known"};
-  newest_[patch.author] = patch.number;
+  newest_[patch.author] = {patch.number, patch.map_version, patch.told};
   Intake out;
   for (const FoundObstacle& one : patch.obstacles)
     if (robot_.empty() || one.finder != robot_) out.changed = merge(one) || out.changed;
   return out;
+}
+
+const TakenPatch* SharedMap::newest(const std::string& author) const {
+  const auto found = newest_.find(author);
+  return found == newest_.end() ? nullptr : &found->second;
 }
 
 std::string SharedMap::fault_of(const FoundObstacle& one) const {

@@ -33,6 +33,15 @@ struct MapPatch {
   /// Incarnation and sequence: which of two of an author is the newer one.
   std::pair<std::uint32_t, std::uint64_t> number;
   std::vector<FoundObstacle> obstacles;
+  std::uint64_t map_version = 0;  ///< of the author's map with all of this in it
+  temporal::Time told{};          ///< when it was told
+};
+
+/// Is what is remembered of the newest patch of an author that was taken.
+struct TakenPatch {
+  std::pair<std::uint32_t, std::uint64_t> number;
+  std::uint64_t map_version = 0;
+  temporal::Time told{};
 };
 
 /// Says what became of a patch or a finding.
@@ -55,6 +64,9 @@ class SharedMap {
   /// room. On what this robot has found itself nobody else has a say.
   Intake take(const MapPatch&);
 
+  /// Returns the newest patch of the author that was taken, or null.
+  const TakenPatch* newest(const std::string& author) const;
+
   /// Returns what is known, in order of finder and id.
   std::vector<FoundObstacle> all() const;
   /// Returns those that are there.
@@ -74,7 +86,7 @@ class SharedMap {
   terrain::Grid grid_;
   std::map<std::string, std::string> team_;
   std::map<Key, FoundObstacle> known_;
-  std::map<std::string, std::pair<std::uint32_t, std::uint64_t>> newest_;  // patch, by author
+  std::map<std::string, TakenPatch> newest_;  // by author
 };
 
 }  // namespace roci::pathplan

@@ -31,6 +31,8 @@ std::map<std::string, temporal::Duration> Node::round_trips() const { return imp
 
 std::map<std::string, link::Counts> Node::link_counts() const { return impl_->links.counts(); }
 
+const std::vector<link::LostSample>& Node::lost_samples() const { return impl_->links.lost(); }
+
 void Node::on_peer_change(std::function<void(const health::PeerChange&)> handler) {
   impl_->on_peer_change.push_back(std::move(handler));
 }

@@ -52,6 +52,8 @@ class Node {
   std::map<std::string, temporal::Duration> round_trips() const;
   /// What has become of what came over links so far, by name of the link.
   std::map<std::string, link::Counts> link_counts() const;
+  /// What of it did not arrive at an attempt, in the order in which that became known here.
+  const std::vector<link::LostSample>& lost_samples() const;
 
   void on_peer_change(std::function<void(const health::PeerChange&)>);
   bool peer_alive(std::string_view service) const;

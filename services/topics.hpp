@@ -87,6 +87,7 @@ inline constexpr Topic<v1::MissionOutlook> mission_outlook{"roci/mission/outlook
 // What a robot finds out about the terrain, and what robots tell each other of it.
 inline constexpr Topic<v1::TerrainFinding> terrain_finding{"roci/terrain/finding",  "roci::v1::TerrainFinding", Qos::state, clocked, robot, PayloadLimit::word};
 inline constexpr Topic<v1::MapPatch>      map_patch     {"roci/map/patch",        "roci::v1::MapPatch",      Qos::state, clocked, team, PayloadLimit::page};
+inline constexpr Topic<v1::KnownMap>      known_map     {"roci/map/known",        "roci::v1::KnownMap",      Qos::state, clocked, robot, PayloadLimit::page};
 
 // An engine that plans all the time uses these.
 inline constexpr Topic<v1::PlanDelta>     plan_delta    {"roci/planner/delta",    "roci::v1::PlanDelta",     Qos::request, clocked, robot, PayloadLimit::plan};

@@ -39,6 +39,7 @@ class Filler {
   void operator()(methods::PathCall& call) {
     (*this)(call.from);
     (*this)(call.to);
+    (*this)(call.map_told_s);
   }
   void operator()(methods::TransformCall& call) {
     (*this)(call.place);
@@ -74,6 +75,16 @@ std::string fault_of(const Call& call, const std::map<std::string, Value>& value
   return {};
 }
 
+// By "call.error", by the error, or what counts for all others. Success is "done" and no error.
+template <typename T>
+const T* found_by(const std::map<std::string, T>& entries, const End& end) {
+  for (const std::string& key : end.error.empty()
+                                    ? std::vector<std::string>{"done"}
+                                    : std::vector{end.call + "." + end.error, end.error, std::string("*")})
+    if (const auto found = entries.find(key); found != entries.end()) return &found->second;
+  return nullptr;
+}
+
 }  // namespace
 
 std::string to_argument(const Value& value) {
@@ -89,6 +100,23 @@ MethodRun::MethodRun(const methods::Method& method, std::map<std::string, std::s
     : method_(&method), arguments_(std::move(arguments)), at_{&method.calls, 0} {}
 
 Step MethodRun::begin() { return ask(); }
+
+Step MethodRun::begin_after(const std::vector<Taken>& taken) {
+  Step step = begin();
+  for (const Taken& one : taken) {
+    if (!step.ask) return {};
+    step = take(one.answer, one.observed);
+  }
+  return step;
+}
+
+Observations MethodRun::needed(const Observations& observed) const {
+  Observations out;
+  for (const auto& [error, repair] : method_->repairs)
+    for (const auto& [timeline, range] : repair.needs)
+      if (const auto found = observed.find(timeline); found != observed.end()) out.insert(*found);
+  return out;
+}
 
 Step MethodRun::ask() {
   auto call = filled(current());
@@ -130,8 +158,12 @@ Step MethodRun::wrong_value(const std::string& reason, std::map<std::string, Val
 
 Step MethodRun::fail(const Answer& answer, const Observations& observed) {
   const std::string reason = current().name + ": " + (answer.reason.empty() ? answer.error : answer.reason);
-  if (go_on_)
-    return {{}, ended(error_.error, error_.reason + "; its repair failed in " + reason, answer.values), {}};
+  if (go_on_) {
+    End end = error_;
+    end.reason += "; its repair failed in " + reason;
+    end.values = answer.values;
+    return {{}, std::move(end), {}};
+  }
   auto repair = method_->repairs.find(current().name + "." + answer.error);
   if (repair == method_->repairs.end()) repair = method_->repairs.find(answer.error);
   if (repair == method_->repairs.end() || repaired_[repair->first] >= repair->second.at_most ||
@@ -161,7 +193,8 @@ End MethodRun::forbid_repair() {
 
 End MethodRun::ended(std::string error, std::string reason, std::map<std::string, Value> values) const {
   return {std::move(error), std::move(reason), std::move(values),
-          energy_known_ ? std::optional(energy_j_) : std::nullopt};
+          energy_known_ ? std::optional(energy_j_) : std::nullopt,
+          at_.index < at_.calls->size() ? current().name : std::string()};
 }
 
 std::optional<std::string> MethodRun::value_of(const std::string& name) const {
@@ -196,10 +229,22 @@ Value MethodRun::then(const methods::Shown& rest) const {
   return shown(method_->then.name.empty() ? rest : method_->then);
 }
 
-Value MethodRun::failed(const std::string& error, const methods::Shown& rest) const {
-  auto found = method_->failed.find(error);
-  if (found == method_->failed.end()) found = method_->failed.find("*");
-  return shown(found == method_->failed.end() ? rest : found->second);
+Value MethodRun::failed(const End& end, const methods::Shown& rest) const {
+  const methods::Shown* found = found_by(method_->failed, end);
+  return shown(found ? *found : rest);
+}
+
+std::map<std::string, Value> MethodRun::told(const End& end) const {
+  std::map<std::string, Value> out;
+  const auto* found = found_by(method_->tells, end);
+  if (!found) return out;
+  Filler fill([this](const std::string& name) { return value_of(name).value_or(""); });
+  for (const auto& [name, state] : *found) {
+    std::string timeline = name;
+    fill(timeline);
+    out.emplace(std::move(timeline), shown(state));
+  }
+  return out;
 }
 
 }  // namespace roci::dedicated::method_run

@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "core/mission/bounded_number.hpp"
 #include "dedicated_svc/methods/fill.hpp"
 
 namespace roci::dedicated::methods {
@@ -13,6 +14,7 @@ namespace {
 using mission::Entry;
 
 constexpr double kLongestWait = 1e7;  // seconds
+constexpr double kLongestCut = 1000;  // metres
 
 // What a template may name here: arguments of the command, and calls whose values it has.
 struct Known {
@@ -100,6 +102,23 @@ temporal::Duration read_time(const Entry& entry, const std::string& name) {
   return temporal::seconds(seconds);
 }
 
+PathCall read_path(const Entry& entry, const Known& known) {
+  entry.allow_only({"planner", "from", "to", "short_m", "map_within_s", "merged"});
+  PathCall call{entry.at("planner").text(), read_place(entry.at("from"), known),
+                read_place(entry.at("to"), known),
+                mission::bounded_number(entry.find("short_m"), "short_m", 0, 0, kLongestCut)};
+  const auto within = entry.find("map_within_s"), merged = entry.find("merged");
+  if (!within && !merged) return call;
+  if (!within || !merged)
+    (within ? *within : *merged)
+        .fail("'map_within_s' and 'merged', the call that merged the other's map, stand together");
+  if (!known.calls.contains(merged->text()))
+    merged->fail("'" + merged->text() + "' names no call that has ended by then");
+  call.map_told_s = "{" + merged->text() + ".told_s}";
+  call.map_within = read_time(*within, "map_within_s");
+  return call;
+}
+
 Call read_call(const Entry& entry, const Known& known) {
   entry.allow_only({"name", "command", "path", "transform", "observe", "wait_s", "within_s", "check"});
   Call call;
@@ -108,11 +127,7 @@ Call read_call(const Entry& entry, const Known& known) {
     entry.at("name").fail("'" + call.name + "' is no name of a call; use letters, digits, '_' and '-'");
   int kinds = 0;
   if (const auto command = entry.find("command")) ++kinds, call.what = read_command(*command, known);
-  if (const auto path = entry.find("path")) {
-    path->allow_only({"planner", "from", "to"});
-    ++kinds, call.what = PathCall{path->at("planner").text(), read_place(path->at("from"), known),
-                                  read_place(path->at("to"), known)};
-  }
+  if (const auto path = entry.find("path")) ++kinds, call.what = read_path(*path, known);
   if (const auto transform = entry.find("transform")) {
     transform->allow_only({"place", "robot"});
     ++kinds, call.what = TransformCall{read_place(transform->at("place"), known),
@@ -167,7 +182,7 @@ Repair read_repair(const Entry& entry, const Method& method, Known known, std::s
 }
 
 Method read_method(const std::string& command, const Entry& entry) {
-  entry.allow_only({"arguments", "calls", "repairs", "results", "during", "then", "failed"});
+  entry.allow_only({"arguments", "calls", "repairs", "results", "during", "then", "failed", "tells"});
   Method method;
   method.command = command;
   if (const auto arguments = entry.find("arguments")) method.arguments = arguments->texts();
@@ -176,6 +191,17 @@ Method read_method(const std::string& command, const Entry& entry) {
   if (const auto failed = entry.find("failed"))
     failed->each_field([&](const std::string& error, const Entry& value) {
       method.failed[error] = read_shown(value, known);
+    });
+  if (const auto tells = entry.find("tells"))
+    tells->each_field([&](const std::string& outcome, const Entry& value) {
+      value.each_field([&](const std::string& timeline, const Entry& state) {
+        if (const auto names = names_in(timeline);
+            !names ||
+            !std::ranges::all_of(*names, [&](const auto& name) { return known.arguments.contains(name); }))
+          state.fail("the timeline '" + timeline +
+                     "' may hold arguments of the command in braces, and nothing else");
+        method.tells[outcome][timeline] = read_shown(state, known);
+      });
     });
   std::set<std::string> names;
   method.calls = read_calls(entry.at("calls"), known, names);

@@ -1,12 +1,11 @@
 #include "ground_console/cli/executed_table.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "ground_console/cli/levels.hpp"
 #include "ground_console/cli/table.hpp"
 #include "ground_console/lib/mission_view.hpp"
 
@@ -15,48 +14,10 @@ namespace {
 
 using nlohmann::json;
 
-constexpr int kDeepest = 20;  // of a hierarchy, whatever parents say
-
-const char* name_of(v1::ExecutedOutcome outcome) {
-  switch (outcome) {
-    case v1::EXECUTED_FINISHED:
-      return "finished";
-    case v1::EXECUTED_BROKEN:
-      return "broken";
-    case v1::EXECUTED_CANCELLED:
-      return "cancelled";
-    case v1::EXECUTED_REPLACED:
-      return "replaced";
-  }
-  return "unknown";
-}
-
-// Each with its depth: parts behind what they are parts of, both by their starts.
-using Ordered = std::vector<std::pair<const v1::ExecutedActivity*, int>>;
-
-void add(const std::map<std::string, std::vector<const v1::ExecutedActivity*>>& parts,
-         const std::string& parent, int depth, Ordered& out) {
-  const auto found = parts.find(parent);
-  if (found == parts.end() || depth > kDeepest) return;
-  for (const v1::ExecutedActivity* one : found->second) {
-    out.emplace_back(one, depth);
-    add(parts, one->id(), depth + 1, out);
-  }
-}
-
-Ordered ordered(const v1::ExecutedPlan& plan) {
-  std::map<std::string, std::vector<const v1::ExecutedActivity*>> parts;
-  std::map<std::string, bool> known;
-  for (const v1::ExecutedActivity& one : plan.activities()) known[one.id()] = true;
-  for (const v1::ExecutedActivity& one : plan.activities())
-    parts[known.contains(one.parent()) ? one.parent() : ""].push_back(&one);
-  for (auto& [parent, list] : parts)
-    std::ranges::stable_sort(list, {}, [](const v1::ExecutedActivity* one) {
-      return one->started_us() < 0 ? std::numeric_limits<std::int64_t>::max() : one->started_us();
-    });
-  Ordered out;
-  add(parts, "", 0, out);
-  return out;
+std::vector<InLevels<v1::ExecutedActivity>> ordered(const v1::ExecutedPlan& plan) {
+  return in_levels(plan.activities(), [](const v1::ExecutedActivity* one) {
+    return one->started_us() < 0 ? std::numeric_limits<std::int64_t>::max() : one->started_us();
+  });
 }
 
 std::string clock_or_blank(std::int64_t time_us) { return time_us < 0 ? "" : lib::clock_text(time_us); }
@@ -75,13 +36,12 @@ std::string executed_table(const v1::ExecutedPlan& plan) {
   std::vector<std::vector<std::string>> rows{
       {"ACTIVITY", "WHAT", "STATE", "STARTED", "ENDED", "TRIES", "BROUGHT", "WHY"}};
   for (const auto& [one, depth] : ordered(plan))
-    rows.push_back({std::string(2 * static_cast<std::size_t>(depth), ' ') + one->id(), one->name(),
-                    lib::name_of(one->state()), clock_or_blank(one->started_us()),
-                    clock_or_blank(one->ended_us()),
+    rows.push_back({std::string(2 * depth, ' ') + one->id(), one->name(), lib::name_of(one->state()),
+                    clock_or_blank(one->started_us()), clock_or_blank(one->ended_us()),
                     one->attempts() == 0 ? "" : std::to_string(one->attempts()), results_text(one->results()),
                     one->cause()});
   return "plan " + std::to_string(plan.version()) + ", from " + lib::clock_text(plan.origin_us()) + ": " +
-         name_of(plan.outcome()) + (plan.reason().empty() ? "" : " (" + plan.reason() + ")") + "\n\n" +
+         lib::name_of(plan.outcome()) + (plan.reason().empty() ? "" : " (" + plan.reason() + ")") + "\n\n" +
          table_text(rows);
 }
 
@@ -106,7 +66,7 @@ json executed_json(const v1::ExecutedPlan& plan) {
   return {{"executive", plan.executive()},
           {"version", plan.version()},
           {"origin_s", static_cast<double>(plan.origin_us()) * 1e-6},
-          {"outcome", name_of(plan.outcome())},
+          {"outcome", lib::name_of(plan.outcome())},
           {"reason", plan.reason()},
           {"activities", activities}};
 }

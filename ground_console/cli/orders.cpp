@@ -67,15 +67,6 @@ json to_json(const v1::OrderStatus& status) {
           {"acknowledged", lib::name_of(status.ack_stage())}};
 }
 
-json to_json(const v1::Decision& decision) {
-  return {{"id", decision.id()},
-          {"resolver", decision.resolver()},
-          {"choices", decision.choices()},
-          {"admissible", decision.admissible()},
-          {"answer_before_us", decision.answer_before_us()},
-          {"plan_version", decision.plan_version()}};
-}
-
 std::string alternatives(const std::vector<std::string>& words) {
   std::string out;
   for (const std::string& word : words) out += (out.empty() ? "" : " or ") + word;
@@ -132,7 +123,7 @@ int list_decisions(lib::Client& client, bool as_json) {
   json list = json::array();
   for (const auto& [id, decision] : client.view().decisions()) {
     if (decision.decision_state() != v1::DECISION_OPEN) continue;
-    list.push_back(to_json(decision));
+    list.push_back(decision_json(decision));
     if (!as_json) std::cout << decision_line(decision) << "\n";
   }
   if (as_json) {
@@ -149,6 +140,15 @@ std::string stage_line(const v1::OrderStatus& status) {
   if (status.stage() == v1::ORDER_APPLIED && status.plan_version() != 0)
     out += " in plan " + std::to_string(status.plan_version());
   return printable(status.reason().empty() ? out : out + ": " + status.reason());
+}
+
+json decision_json(const v1::Decision& decision) {
+  return {{"id", decision.id()},
+          {"resolver", decision.resolver()},
+          {"choices", decision.choices()},
+          {"admissible", decision.admissible()},
+          {"answer_before_us", decision.answer_before_us()},
+          {"plan_version", decision.plan_version()}};
 }
 
 std::string decision_line(const v1::Decision& decision) {

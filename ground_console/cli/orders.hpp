@@ -1,6 +1,7 @@
 // `roci order …` and `roci decisions`: orders to the executive, and the decisions that are open.
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -33,5 +34,6 @@ int list_decisions(lib::Client& client, bool json);
 std::string stage_line(const v1::OrderStatus& status);
 /// "way: by-left or by-right? asked of ground, before 01:20:00".
 std::string decision_line(const v1::Decision& decision);
+nlohmann::json decision_json(const v1::Decision& decision);
 
 }  // namespace roci::console::cli

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <optional>
+#include <set>
 #include <vector>
 
 #include "core/temporal/schedule.hpp"
+#include "ground_console/cli/levels.hpp"
 #include "ground_console/cli/plan_values.hpp"
 #include "ground_console/cli/table.hpp"
 #include "services/wire/plan_wire.hpp"
@@ -70,6 +72,21 @@ const std::vector<v1::Property>& arguments_of(const v1::PlanActivity& activity) 
   return own ? activity.arguments() : activity.commands().front().arguments();
 }
 
+bool has_levels(const v1::Plan& plan) {
+  return std::ranges::any_of(plan.activities(), [](const v1::PlanActivity& activity) {
+    return !activity.level().empty() || !activity.parent().empty();
+  });
+}
+
+std::string robot_of(const lib::MissionView& view, const v1::PlanActivity& activity) {
+  for (const v1::PlanCommand& command : activity.commands()) {
+    if (!command.robot().empty()) return command.robot();
+    const auto owner = view.services().find(command.owner());
+    if (owner != view.services().end() && !owner->second.robot().empty()) return owner->second.robot();
+  }
+  return "";
+}
+
 std::int64_t planned_start_us(const v1::Plan& plan, const v1::PlanActivity& activity) {
   return start_in(schedule_of(plan), plan, activity);
 }
@@ -78,20 +95,30 @@ std::string plan_table(const lib::MissionView& view) {
   if (!view.plan()) return "no plan yet\n";
   const v1::Plan& plan = *view.plan();
   const Schedule schedule = schedule_of(plan);
-  std::vector<const v1::PlanActivity*> order;
-  for (const v1::PlanActivity& activity : plan.activities()) order.push_back(&activity);
-  std::ranges::stable_sort(
-      order, {}, [&](const v1::PlanActivity* activity) { return start_in(schedule, plan, *activity); });
-  std::vector<std::vector<std::string>> rows{
-      {"ACTIVITY", "WHAT", "ARGUMENTS", "STATE", "PLANNED", "TAKES", "WINDOW", "EXECUTED", "GOALS"}};
-  for (const v1::PlanActivity* activity : order) {
+  std::set<std::string> robots;
+  for (const v1::PlanActivity& activity : plan.activities()) robots.insert(robot_of(view, activity));
+  robots.erase("");
+  const bool layered = has_levels(plan), several = robots.size() > 1;
+  std::vector<std::string> head{"ACTIVITY"};
+  if (layered) head.emplace_back("LEVEL");
+  if (several) head.emplace_back("ROBOT");
+  for (const char* column : {"WHAT", "ARGUMENTS", "STATE", "PLANNED", "TAKES", "WINDOW", "EXECUTED", "GOALS"})
+    head.emplace_back(column);
+  std::vector<std::vector<std::string>> rows{std::move(head)};
+  for (const auto& [activity, depth] : in_levels(
+           plan.activities(), [&](const v1::PlanActivity* one) { return start_in(schedule, plan, *one); })) {
     const v1::StepStatus* step = view.step(activity->id());
     const std::int64_t start = start_in(schedule, plan, *activity);
     std::string state = step == nullptr ? "waiting" : lib::name_of(step->state());
     if (stands_on_older_values(view, *activity)) state += " *";
-    rows.push_back({activity->id(), activity->name(), arguments_text(*activity), std::move(state),
-                    start < 0 ? "" : lib::clock_text(start), duration_of(*activity), window_of(step),
-                    executed_of(step), joined(activity->goals_served(), ", ")});
+    std::vector<std::string> row{std::string(2 * depth, ' ') + activity->id()};
+    if (layered) row.push_back(activity->level());
+    if (several) row.push_back(robot_of(view, *activity));
+    for (std::string cell : {activity->name(), arguments_text(*activity), std::move(state),
+                             start < 0 ? "" : lib::clock_text(start), duration_of(*activity), window_of(step),
+                             executed_of(step), joined(activity->goals_served(), ", ")})
+      row.push_back(std::move(cell));
+    rows.push_back(std::move(row));
   }
   return "plan " + std::to_string(plan.version()) + ", from " + lib::clock_text(plan.origin_us()) + ", now " +
          lib::clock_text(view.now_us()) + "\n\n" + table_text(rows) + older_values_text(view);

@@ -4,8 +4,10 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
+#include "ground_console/cli/orders.hpp"
 #include "ground_console/cli/plan_table.hpp"
 #include "ground_console/cli/plan_values.hpp"
+#include "ground_console/cli/robots.hpp"
 
 namespace roci::console::cli {
 
@@ -74,6 +76,20 @@ std::string mission_text(const v1::MissionStatus& mission) {
 
 }  // namespace
 
+namespace {
+
+// The plan after which nothing is executed (R129); null: one is, or is being made, or none has ended.
+const v1::ExecutedPlan* idle_after(const lib::MissionView& view) {
+  const v1::MissionStatus* mission = view.mission();
+  if (mission == nullptr || view.executed().empty()) return nullptr;
+  const auto phase = mission->phase();
+  if (phase != v1::PHASE_IDLE && phase != v1::PHASE_FINISHED && phase != v1::PHASE_SAFE) return nullptr;
+  const v1::ExecutedPlan& last = view.executed().rbegin()->second;
+  return last.version() == mission->plan_version() ? &last : nullptr;
+}
+
+}  // namespace
+
 json status_json(const lib::MissionView& view) {
   json out{{"time_s", static_cast<double>(view.now_us()) / 1e6},
            {"goals", json::array()},
@@ -82,6 +98,12 @@ json status_json(const lib::MissionView& view) {
   if (const v1::MissionStatus* mission = view.mission()) {
     out["mission"] = mission->mission();
     add_mission(out, *mission);
+  }
+  if (const v1::ExecutedPlan* last = idle_after(view)) {
+    out["idle"] = {{"since_s", static_cast<double>(last->header().stamp_us()) / 1e6},
+                   {"after_plan", last->version()},
+                   {"outcome", lib::name_of(last->outcome())},
+                   {"reason", last->reason()}};
   }
   if (view.executives().size() > 1) {
     for (const auto& [name, mission] : view.missions()) add_mission(out["executives"][name], mission);
@@ -107,6 +129,11 @@ json status_json(const lib::MissionView& view) {
   }
   for (const auto& [name, observation] : view.timelines())
     out["timelines"][name] = lib::value_text(observation.observed());
+  out["robots"] = robots_json(view);
+  out["decisions"] = json::array();
+  for (const v1::Decision* decision : open_decisions(view))
+    out["decisions"].push_back(decision_json(*decision));
+  out["repairs"] = repairs_json(view);
   return out;
 }
 
@@ -132,6 +159,9 @@ json plan_json(const lib::MissionView& view) {
   for (const v1::PlanActivity& activity : view.plan()->activities()) {
     json entry{{"id", activity.id()},
                {"name", activity.name()},
+               {"level", activity.level()},
+               {"parent", activity.parent()},
+               {"robot", robot_of(view, activity)},
                {"goals", activity.goals_served()},
                {"planned_start_us", planned_start_us(*view.plan(), activity)},
                {"duration_us", activity.duration_lower_us()},
@@ -181,12 +211,20 @@ std::string status_text(const lib::MissionView& view) {
   } else {
     out += "no status from exec_svc\n";
   }
+  if (const v1::ExecutedPlan* last = idle_after(view)) {
+    out += "idle since " + lib::clock_text(last->header().stamp_us()) + ": plan " +
+           std::to_string(last->version()) + " " + lib::name_of(last->outcome()) +
+           (last->reason().empty() ? "" : ", " + printable(last->reason())) + "\n";
+  }
   if (const v1::LeaseMessage* leader = view.leader()) out += "executive: " + lib::pair_text(*leader) + "\n";
   out += "\nGoals\n";
   for (const auto& [key, status] : view.goals()) out += "  " + goal_line(status) + "\n";
+  out += robots_text(view);
   out += "\nServices\n";
+  std::size_t width = 14;
+  for (const auto& [name, heartbeat] : view.services()) width = std::max(width, name.size() + 2);
   for (const auto& [name, heartbeat] : view.services()) {
-    out += "  " + padded(name, 14) + padded(lib::name_of(heartbeat.state()), 10) +
+    out += "  " + padded(name, width) + padded(lib::name_of(heartbeat.state()), 10) +
            padded(heartbeat.dds(), 12) + "start " + std::to_string(heartbeat.incarnation()) + ", " +
            std::to_string(heartbeat.resident_kb() / 1024) + " MB\n";
   }

@@ -142,6 +142,9 @@ Client::Client(const services::process::Connection& connection)
   follow(topics::function_offer);
   follow(topics::downlink_schedule);
   follow(topics::mission_outlook);
+  follow(topics::command);
+  follow(topics::command_ack);
+  follow(topics::known_map);
 }
 
 template <class T>
@@ -158,6 +161,19 @@ bool Client::wait(const std::function<bool()>& done, milliseconds limit) {
     node_.spin_once(milliseconds(50));
   }
   return true;
+}
+
+void Client::settle(milliseconds quiet, milliseconds limit) {
+  const auto end = services::clock::wall_now() + limit;
+  const auto known = [this] {
+    return view_.services().size() + view_.timelines().size() + view_.goals().size() + view_.maps().size() +
+           view_.missions().size();
+  };
+  std::size_t seen = 0;
+  do {
+    seen = known();
+    wait([&] { return known() > seen; }, quiet);
+  } while (known() > seen && services::clock::wall_now() < end);
 }
 
 std::optional<v1::GoalStatus> Client::send_goal(const v1::Goal& goal, milliseconds limit) {

@@ -146,6 +146,21 @@ void MissionView::take(const v1::MissionOutlook& outlook) {
   count(keep_newest(outlooks_, outlook.robot(), outlook, kExecutives));
 }
 
+void MissionView::take(const v1::Command& command) {
+  note_time(command.header());
+  count(repairs_.take(command));
+}
+
+void MissionView::take(const v1::CommandAck& word) {
+  note_time(word.header());
+  count(repairs_.take(word));
+}
+
+void MissionView::take(const v1::KnownMap& map) {
+  note_time(map.header());
+  count(keep_newest(maps_, map.planner(), map, kServices));
+}
+
 std::uint64_t MissionView::model_version(const std::string& owner) const {
   std::uint64_t out = 0;
   for (const auto& [key, offer] : offers_)
@@ -241,6 +256,10 @@ const char* name_of(v1::MissionPhase phase) {
   return name_in(std::array{"idle", "pausing", "planning", "executing", "safe", "finished"}, phase);
 }
 
+const char* name_of(v1::ExecutedOutcome outcome) {
+  return name_in(std::array{"finished", "broken", "cancelled", "replaced"}, outcome);
+}
+
 const char* name_of(v1::GoalState state) {
   return name_in(std::array{"rejected", "pending", "planned", "achieved", "dropped", "failed", "recalled"},
                  state);
@@ -264,6 +283,8 @@ const char* name_of(v1::Severity severity) {
 const char* name_of(v1::ServiceState state) {
   return name_in(std::array{"starting", "running", "degraded", "stopping"}, state);
 }
+
+const char* name_of(v1::ObstacleKind kind) { return name_in(std::array{"rock", "soil"}, kind); }
 
 std::string value_text(double number) {
   std::array<char, 32> buffer{};

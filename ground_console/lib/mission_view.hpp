@@ -8,11 +8,13 @@
 #include <utility>
 #include <vector>
 
+#include "ground_console/lib/repairs.hpp"
 #include "roci_idl/command.h"
 #include "roci_idl/executed.h"
 #include "roci_idl/function.h"
 #include "roci_idl/goal.h"
 #include "roci_idl/health.h"
+#include "roci_idl/map.h"
 #include "roci_idl/motion.h"
 #include "roci_idl/order.h"
 #include "roci_idl/outlook.h"
@@ -47,6 +49,9 @@ class MissionView {
   void take(const v1::FunctionOffer& offer);
   void take(const v1::DownlinkSchedule& schedule);
   void take(const v1::MissionOutlook& outlook);
+  void take(const v1::Command& command);
+  void take(const v1::CommandAck& word);
+  void take(const v1::KnownMap& map);
 
   using GoalKey = std::pair<std::string, std::string>;  ///< issuer, id
 
@@ -89,6 +94,10 @@ class MissionView {
   /// Where each robot was, oldest first: a robot is whatever observes its `<name>.x` and `<name>.y`, in
   /// metres. Long ways are thinned out to at most kWay places.
   const std::map<std::string, std::vector<Place>>& ways() const { return ways_; }
+  /// What owners of commands repair or have repaired by themselves since this view joined, and what they repaired then.
+  const std::map<Repairs::Key, Repair>& repairs() const { return repairs_.all(); }
+  /// What the maps of robots have beyond the loaded one, by path planner.
+  const std::map<std::string, v1::KnownMap>& maps() const { return maps_; }
   const std::deque<v1::Event>& events() const { return events_; }  ///< oldest first, at most kEvents
   std::uint64_t events_seen() const { return events_seen_; }
   /// Mission time of the newest sample seen, in microseconds.
@@ -123,6 +132,8 @@ class MissionView {
   std::map<std::string, v1::MissionOutlook> outlooks_;     // by robot
   std::map<std::string, std::vector<Place>> ways_;
   std::map<std::string, v1::Decision> decisions_;
+  Repairs repairs_;
+  std::map<std::string, v1::KnownMap> maps_;
   std::map<GoalKey, std::vector<v1::OrderStatus>> orders_;  // by issuer and id
   std::deque<v1::Event> events_;
   std::uint64_t events_seen_ = 0;
@@ -131,12 +142,14 @@ class MissionView {
 };
 
 const char* name_of(v1::MissionPhase phase);
+const char* name_of(v1::ExecutedOutcome outcome);
 const char* name_of(v1::GoalState state);
 const char* name_of(v1::GoalClass importance);
 const char* name_of(v1::AckStage stage);  ///< "journaled", "held by both"
 const char* name_of(v1::ActivityState state);
 const char* name_of(v1::Severity severity);
 const char* name_of(v1::ServiceState state);
+const char* name_of(v1::ObstacleKind kind);  ///< "rock", "soil"
 std::string value_text(const v1::TimelineValue& value);
 std::string value_text(double number);
 /// Who of a pair leads, in which epoch, and how far the other is behind: "first leads (epoch 3), second stands

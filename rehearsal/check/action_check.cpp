@@ -116,11 +116,10 @@ class ActionCheck {
     const auto list = entry.find("arguments");
     if (list)
       for (const auto& [name, value] : list->fields()) given.push_back(name);
-    for (const std::string& needed : form.arguments) {
-      if (contains(given, needed)) continue;
+    for (const std::string& needed :
+         form.missing([&](const std::string& one) { return contains(given, one); }))
       list.value_or(entry).complain("command '" + form.name + "' needs an argument '" + needed + "'; add it" +
                                     (given.empty() ? "" : " (given: " + joined(given) + ")"));
-    }
   }
 
   static std::string joined(const std::vector<std::string>& words) {

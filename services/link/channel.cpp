@@ -68,9 +68,10 @@ bool Channel::offer(Passenger passenger, Time now) {
   ++counts_.offered;
   if (refuses(passenger, now)) {
     ++counts_.lost;
+    note(now, passenger, 1, Fate::lost);
     return false;
   }
-  if (passenger.lifetime == Lifetime::newest) supersede(passenger, offer);
+  if (passenger.lifetime == Lifetime::newest) supersede(passenger, offer, now);
   waiting_.emplace(Order{now, offer}, Waiting{std::move(passenger)});
   run(now);
   if (flying_.erase({now, offer}) == 0) return false;
@@ -127,6 +128,7 @@ void Channel::send(Order order, Waiting waiting, Time start) {
   const bool once = waiting.passenger.lifetime == Lifetime::once;
   if (once && link_->open.closes(order.first) <= std::max(start, free_at_)) {
     ++counts_.lost;
+    note(link_->open.closes(order.first), waiting.passenger, waiting.attempt, Fate::lost);
     return;
   }
   const Time closes = link_->open.closes(start);
@@ -135,6 +137,7 @@ void Channel::send(Order order, Waiting waiting, Time start) {
   if (end > closes || chance_loses(waiting)) {
     if (!once) return repeat(order, std::move(waiting), free_at_);
     ++counts_.lost;
+    note(free_at_, waiting.passenger, waiting.attempt, Fate::lost);
     return;
   }
   flying_.emplace(Order{temporal::plus(end, link_->light_time), order.second}, std::move(waiting.passenger));
@@ -144,8 +147,10 @@ void Channel::repeat(Order order, Waiting waiting, Time ended) {
   const Passenger& passenger = waiting.passenger;
   if (newest_[{passenger.topic, {passenger.sender, passenger.instance}}] != order.second) {
     ++counts_.superseded;
+    note(ended, passenger, waiting.attempt, Fate::superseded);
     return;
   }
+  note(ended, passenger, waiting.attempt, Fate::repeated);
   const Duration pause =
       std::min(kLongestRepetitionPause, kRepetitionPause * (1 << std::min(waiting.attempt - 1, 8U)));
   ++waiting.attempt;
@@ -154,14 +159,23 @@ void Channel::repeat(Order order, Waiting waiting, Time ended) {
   waiting_.emplace(Order{ready, order.second}, std::move(waiting));
 }
 
-void Channel::supersede(const Passenger& newer, std::uint64_t offer) {
+void Channel::supersede(const Passenger& newer, std::uint64_t offer, Time now) {
   newest_[{newer.topic, {newer.sender, newer.instance}}] = offer;
   counts_.superseded += std::erase_if(waiting_, [&](const auto& entry) {
     const Passenger& older = entry.second.passenger;
-    return older.lifetime == Lifetime::newest && older.topic == newer.topic && older.sender == newer.sender &&
-           older.instance == newer.instance;
+    if (older.lifetime != Lifetime::newest || older.topic != newer.topic || older.sender != newer.sender ||
+        older.instance != newer.instance)
+      return false;
+    note(now, older, entry.second.attempt, Fate::superseded);
+    return true;
   });
 }
+
+void Channel::note(Time at, const Passenger& passenger, std::uint32_t attempt, Fate fate) {
+  if (losses_.size() < kMostLosses) losses_.push_back({at, passenger, attempt, fate});
+}
+
+std::vector<Loss> Channel::take_losses() { return std::exchange(losses_, {}); }
 
 bool Channel::chance_loses(const Waiting& waiting) const {
   return link_->loss > 0 && chance(seed_, link_->name, waiting.passenger, waiting.attempt) < link_->loss;

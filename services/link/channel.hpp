@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "services/link/link.hpp"
+#include "services/link/lost_sample.hpp"
 
 namespace roci::services::link {
 
@@ -65,6 +66,17 @@ struct Counts {
   bool operator==(const Counts&) const = default;
 };
 
+/// Is an attempt to send a sample that did not bring it there.
+struct Loss {
+  temporal::Time at{};
+  Passenger passenger;
+  std::uint32_t attempt = 1;
+  Fate fate = Fate::lost;
+};
+
+/// So many losses wait to be taken; what is lost beyond is counted alone.
+inline constexpr std::size_t kMostLosses = 65'536;
+
 class Channel {
  public:
   /// The link outlives this.
@@ -80,6 +92,8 @@ class Channel {
   };
   /// Removes and returns what has arrived by now, in the order of arrival, then of sending.
   std::vector<Arrival> take(temporal::Time now);
+  /// Removes and returns what was lost since this was asked last, in the order of losing.
+  std::vector<Loss> take_losses();
   /// When take() or the channel itself has something to do next; empty: not before another offer().
   std::optional<temporal::Time> next() const;
 
@@ -97,7 +111,8 @@ class Channel {
   std::optional<temporal::Time> next_start() const;
   void send(Order, Waiting, temporal::Time start);
   void repeat(Order, Waiting, temporal::Time ended);
-  void supersede(const Passenger&, std::uint64_t offer);
+  void supersede(const Passenger&, std::uint64_t offer, temporal::Time now);
+  void note(temporal::Time at, const Passenger&, std::uint32_t attempt, Fate);
   bool refuses(const Passenger&, temporal::Time now) const;
   bool chance_loses(const Waiting&) const;
   temporal::Duration sending_time(const Passenger&) const;
@@ -110,6 +125,7 @@ class Channel {
   std::map<Order, Passenger> flying_;         // by arrival
   std::map<Instance, std::uint64_t> newest_;  // the newest offer of each instance
   Counts counts_;
+  std::vector<Loss> losses_;
 };
 
 /// A number from 0 up to 1 that depends on these alone.

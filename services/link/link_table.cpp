@@ -1,5 +1,7 @@
 #include "services/link/link_table.hpp"
 
+#include <algorithm>
+
 #include "services/link/channel.hpp"
 
 namespace roci::services::link {
@@ -14,6 +16,10 @@ bool is_at(const Party& party, const std::string& end) {
 Party LinkTable::party(const std::string& service) const {
   const auto robot = robots_.find(service);
   return {service, robot == robots_.end() ? "" : robot->second};
+}
+
+bool LinkTable::has_robot(const std::string& name) const {
+  return !name.empty() && std::ranges::any_of(robots_, [&](const auto& one) { return one.second == name; });
 }
 
 std::optional<LinkTable::Passage> LinkTable::passage(const Party& sender, const Party& receiver) const {

@@ -35,6 +35,8 @@ class LinkTable {
   bool empty() const { return links_.empty(); }
   const std::vector<Link>& links() const { return links_; }
   std::uint64_t seed() const { return seed_; }
+  /// Whether a service belongs to a robot of that name.
+  bool has_robot(const std::string& name) const;
   /// The service with the robot that the mission gives it.
   Party party(const std::string& service) const;
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "services/node/endpoints.hpp"
+#include "services/node/key_words.hpp"
 #include "services/topics.hpp"
 #include "services/transport/type_support.hpp"
 
@@ -45,6 +46,19 @@ const std::string& sender_as(const void* value) {
   }
 }
 
+/// The service that a command or a request is for; empty: everyone who reads the topic.
+template <class T>
+std::string addressee_as(const void* value) {
+  const T& sample = *static_cast<const T*>(value);
+  if constexpr (std::same_as<T, v1::Command>) {
+    return sample.owner();
+  } else if constexpr (requires { sample.request().instance_name(); }) {
+    return sample.request().instance_name();
+  } else {
+    return {};
+  }
+}
+
 template <class T>
 Decoded decode_as(std::span<const std::uint8_t> payload) {
   auto value = std::make_shared<T>();
@@ -73,6 +87,8 @@ TopicSpec spec_of(const Topic<T>& topic) {
   codec.type = transport::describe_type<T>(topic.type_name);
   codec.decode = &decode_as<T>;
   codec.key = &key_as<T>;
+  codec.addressee = &addressee_as<T>;
+  codec.key_words = [](const void* value) { return key_words(*static_cast<const T*>(value)); };
   codec.sender = &sender_as<T>;
   if constexpr (HasHeader<T>) {
     codec.size = &size_as<T>;

@@ -37,15 +37,42 @@ link::Party LinkGate::self() const {
 bool LinkGate::admit(TopicReader& reader, const std::shared_ptr<const void>& value, temporal::Time now) {
   const link::LinkTable& links = options_->links;
   if (links.empty()) return true;
-  const v1::SampleHeader& header = reader.topic.codec.header(value.get());
-  const bool ground = header.robot().empty() && (header.incarnation() == 0 || sent_up(reader.topic.name));
-  const auto passage = links.passage({header.sender(), header.robot(), ground}, self());
+  // Whoever reads what is for another service passes over it.
+  const std::string addressee = reader.topic.codec.addressee(value.get());
+  if (!addressee.empty() && addressee != options_->name) return true;
+  const auto passage = links.passage(sender_of(reader, value.get()), self());
   if (!passage) return true;
   const auto [direction, fresh] =
       directions_.try_emplace({passage->index, passage->sender_end},
                               Direction{link::Channel(*passage->link, links.seed()), passage->link->name});
   direction->second.readers[reader.topic.name] = &reader;
-  return direction->second.channel.offer(passenger_of(reader.topic, *passage->link, value), now);
+  const bool arrived =
+      direction->second.channel.offer(passenger_of(reader.topic, *passage->link, value), now);
+  note_losses(direction->second);
+  return arrived;
+}
+
+link::Party LinkGate::sender_of(const TopicReader& reader, const void* value) const {
+  const v1::SampleHeader& header = reader.topic.codec.header(value);
+  link::Party out{header.sender(), header.robot()};
+  if (!out.robot.empty()) return out;
+  out.ground = header.incarnation() == 0 || sent_up(reader.topic.name);
+  if (reader.topic.name == topics::observation.name) {
+    const std::string& timeline = static_cast<const v1::Observation*>(value)->timeline();
+    const std::string robot = timeline.substr(0, timeline.find('.'));
+    if (options_->links.has_robot(robot)) out.robot = robot;
+  }
+  return out;
+}
+
+void LinkGate::note_losses(Direction& direction) {
+  for (const link::Loss& loss : direction.channel.take_losses()) {
+    if (lost_.size() >= kNamedLosses) return;
+    const link::Passenger& sample = loss.passenger;
+    const Codec& codec = direction.readers.at(sample.topic)->topic.codec;
+    lost_.push_back({loss.at, direction.name, sample.topic, codec.key_words(sample.value.get()),
+                     sample.sender, sample.incarnation, sample.number, loss.attempt, loss.fate});
+  }
 }
 
 std::vector<LinkGate::Due> LinkGate::take(temporal::Time now) {
@@ -54,6 +81,7 @@ std::vector<LinkGate::Due> LinkGate::take(temporal::Time now) {
     for (link::Channel::Arrival& arrival : direction.channel.take(now))
       arrived.push_back(
           {arrival.at, {direction.readers.at(arrival.passenger.topic), std::move(arrival.passenger.value)}});
+    note_losses(direction);
   }
   std::ranges::stable_sort(arrived, {}, &std::pair<temporal::Time, Due>::first);
   std::vector<Due> out;

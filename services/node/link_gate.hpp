@@ -18,6 +18,9 @@ namespace roci::services::node {
 
 struct TopicReader;
 
+/// So many lost samples are remembered by name; what is lost beyond is counted alone.
+inline constexpr std::size_t kNamedLosses = 65'536;
+
 /// The links lie between the barrier and the handlers, so that every sample has been counted by the clock
 /// before it is lost or delayed. A node without links admits everything.
 class LinkGate {
@@ -46,6 +49,8 @@ class LinkGate {
   std::map<std::string, temporal::Duration> round_trips() const;
   /// By name of the link.
   std::map<std::string, link::Counts> counts() const;
+  /// What was lost, in the order in which it became known here.
+  const std::vector<link::LostSample>& lost() const { return lost_; }
 
  private:
   struct Direction {
@@ -54,9 +59,12 @@ class LinkGate {
     std::map<std::string, TopicReader*> readers{};  // by topic
   };
   link::Party self() const;
+  link::Party sender_of(const TopicReader&, const void* value) const;
+  void note_losses(Direction&);
 
   const NodeOptions* options_;
   std::map<std::pair<std::size_t, std::size_t>, Direction> directions_;  // by link, end of the sender
+  std::vector<link::LostSample> lost_;
 };
 
 }  // namespace roci::services::node

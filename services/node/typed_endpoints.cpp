@@ -67,6 +67,7 @@ template struct TypedEndpoints<v1::MissionOutlook>;
 template struct TypedEndpoints<v1::ExecutedPlan>;
 template struct TypedEndpoints<v1::TerrainFinding>;
 template struct TypedEndpoints<v1::MapPatch>;
+template struct TypedEndpoints<v1::KnownMap>;
 template struct TypedEndpoints<v1::TimeProbe>;
 template struct TypedEndpoints<v1::PlanDelta>;
 template struct TypedEndpoints<v1::PlanReceipt>;

@@ -3,6 +3,8 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "services/topics.hpp"
+
 namespace roci::services::process {
 
 using nlohmann::json;
@@ -22,6 +24,25 @@ link::Counts counts_of(const json& report) {
           count_of(report, "superseded"), count_of(report, "under_way"), count_of(report, "repeated")};
 }
 
+// Who does what about it (docs/links.md).
+const char* effect_of(const link::LostSample& sample) {
+  if (sample.fate == link::Fate::repeated) return "sent again";
+  if (sample.fate == link::Fate::superseded) return "superseded";
+  const std::string& topic = sample.topic;
+  if (topic == topics::command.name) return "asked for";
+  if (topic.ends_with("/request") || topic.ends_with("/reply")) return "called again";
+  if (topic == topics::plan_delta.name) return "made up for by a newer version";
+  return "never heard";
+}
+
+json as_json(const link::LostSample& sample) {
+  return {{"time_us", sample.at.count()}, {"link", sample.link},
+          {"topic", sample.topic},        {"key", sample.key},
+          {"sender", sample.sender},      {"incarnation", sample.incarnation},
+          {"number", sample.number},      {"attempt", sample.attempt},
+          {"effect", effect_of(sample)}};
+}
+
 }  // namespace
 
 json as_json(const std::map<std::string, link::Counts>& links) {
@@ -39,13 +60,19 @@ void write_link_report(const Node& node, const std::filesystem::path& run_folder
   if (counts.empty() || run_folder.empty()) return;
   std::error_code error;
   std::filesystem::create_directories(run_folder / kFolder, error);
-  std::ofstream(run_folder / kFolder / (node.options().name + ".json")) << as_json(counts).dump(2) << '\n';
+  const std::string& name = node.options().name;
+  std::ofstream(run_folder / kFolder / (name + ".json")) << as_json(counts).dump(2) << '\n';
+  if (node.lost_samples().empty()) return;
+  std::ofstream lost(run_folder / kFolder / (name + ".jsonl"));
+  for (const link::LostSample& sample : node.lost_samples())
+    lost << as_json(sample).dump(-1, ' ', false, json::error_handler_t::replace) << '\n';
 }
 
 std::map<std::string, link::Counts> read_link_reports(const std::filesystem::path& run_folder) {
   std::map<std::string, link::Counts> out;
   std::error_code missing;
   for (const auto& file : std::filesystem::directory_iterator(run_folder / kFolder, missing)) {
+    if (file.path().extension() != ".json") continue;
     std::ifstream in(file.path());
     const json report = json::parse(in, nullptr, false);
     if (!report.is_object()) continue;

@@ -61,8 +61,8 @@ std::vector<TopicRights> make_table() {
       row(topics::event,           all,                                      all),
       row(topics::goal,            {executive, analyst, world, console},     {executive, planner, listener, console}),
       row(topics::goal_status,     {executive},                              {planner, analyst, listener, console}),
-      row(topics::command,         {executive, commander},                   {listener, owner}),
-      row(topics::command_ack,     {owner},                                  {executive, planner, listener, commander}),
+      row(topics::command,         {executive, commander},                   {listener, owner, console}),
+      row(topics::command_ack,     {owner},                                  {executive, planner, listener, commander, console}),
       row(topics::observation,     {owner, executive},                       {executive, planner, analyst, listener, commander, console}),
       row(topics::data_product,    {owner, analyst},                         {planner, analyst, listener, console}),
       row(topics::hazard,          {owner},                                  {path_planner, listener, console}),
@@ -85,6 +85,7 @@ std::vector<TopicRights> make_table() {
 
       row(topics::terrain_finding, {owner},                                  {path_planner, listener, console}),
       row(topics::map_patch,       {path_planner},                           {path_planner, listener, console}),
+      row(topics::known_map,       {path_planner},                           {listener, console}),
 
       row(topics::plan_delta,      {planner},                                {executive}),
       row(topics::plan_receipt,    {executive},                              {planner}),

@@ -6,6 +6,8 @@
 #include <sstream>
 #include <utility>
 
+#include "core/terrain/way.hpp"
+
 namespace roci::sim::components {
 
 using temporal::State;
@@ -23,6 +25,31 @@ std::optional<double> number(const std::string& text) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
   return value;
+}
+
+// Says where a command leads: over points that it brings, or to one.
+struct Wanted {
+  terrain::Way way;
+  bool given = false;
+  std::string fault{};  // empty: it leads there
+};
+
+Wanted wanted_of(const world::Task& task, const world::Ground& ground) {
+  const auto text = task.arguments.find("way");
+  if (task.command != "drive" || text == task.arguments.end()) {
+    const auto x = number(task.arguments.at("x")), y = number(task.arguments.at("y"));
+    if (!x || !y) return {{}, false, "x and y must be numbers, in metres"};
+    return {{{*x, *y}}};
+  }
+  auto [way, fault] = terrain::read_way(text->second, kGivenPoints);
+  if (!fault.empty()) return {{}, true, "way: " + fault};
+  for (std::size_t i = 0; i < way.size(); ++i)
+    if (!ground.site->grid().contains(way[i]))
+      return {
+          {},
+          true,
+          "way: point " + std::to_string(i + 1) + " (" + terrain::to_text({way[i]}) + ") lies off the map"};
+  return {std::move(way), true};
 }
 
 Failure bogged_down() {
@@ -64,9 +91,8 @@ void Drive::restore(const world::Memory& memory) {
 }
 
 Ending Drive::begin(const world::Task& task, Time now, Surroundings& around) {
-  const auto x = number(task.arguments.at("x"));
-  const auto y = number(task.arguments.at("y"));
-  if (!x || !y) return Failure{"bad-arguments", task.command + ": x and y must be numbers, in metres"};
+  const Wanted wanted = wanted_of(task, around.environment.ground);
+  if (!wanted.fault.empty()) return Failure{"bad-arguments", task.command + ": " + wanted.fault};
   if (bogged_) return bogged_down();
   for (const auto* other : around.components.all<world::BodyInterlock>()) {
     if (Ending forbidden = other->forbids_driving()) return forbidden;
@@ -74,14 +100,21 @@ Ending Drive::begin(const world::Task& task, Time now, Surroundings& around) {
   detours_ = last_detours_ = 0;
   sinkage_m_ = soil_slip_ = 0;
   soil_ = {};
+  const auto [x, y] = wanted.way.back();
   if (task.command == "turn") {
-    target_ = Target{task.key, task.latest_end, place_, *x, *y, true};
-    trace_ = simulate_turn(settings_.motion, now, *around.body.pose, {*x, *y}, noise_);
+    target_ = Target{task.key, task.latest_end, place_, x, y, true};
+    trace_ = simulate_turn(settings_.motion, now, *around.body.pose, {x, y}, noise_);
     around.deeds.push_back({"turn", place_});
     return std::nullopt;
   }
-  target_ = Target{task.key, task.latest_end, task.arguments.at("to"), *x, *y};
-  ask(around);
+  target_ = Target{task.key, task.latest_end, task.arguments.at("to"), x, y, false, wanted.given};
+  if (!wanted.given) {
+    ask(around);
+    return std::nullopt;
+  }
+  way_ = wanted.way;
+  around.deeds.push_back({"motion", target_->place});
+  simulate(now, *around.body.pose, 0, around.environment.ground);
   return std::nullopt;
 }
 
@@ -150,10 +183,13 @@ Ending Drive::finish(Surroundings& around) {
   return Failure{"blocked", "a rock that the map does not show lies on the way (" + rock + ")"};
 }
 
-// Returns whether the drive repairs what stopped it: it looks at the rock and will ask for a way around.
+// Returns whether the drive repairs what stopped it: it looks at the rock and will ask for a way around. A way that was given
+// is somebody else's.
 bool Drive::looks_around(const DriveTrace& trace, const std::string& rock, Surroundings& around) {
   const Time looked = trace.end + temporal::seconds(settings_.look_s);
-  if (detours_ >= settings_.detours || (target_->latest_end && looked >= *target_->latest_end)) return false;
+  if (target_->given || detours_ >= settings_.detours ||
+      (target_->latest_end && looked >= *target_->latest_end))
+    return false;
   ++detours_;
   looks_until_ = looked;
   around.out.push_back(world::TaskReport{target_->key, world::TaskStage::repairing, "repairing",

@@ -25,7 +25,11 @@ struct DriveSettings {
   std::string stop_place = "here";
 };
 
-/// Drives on wheels: drive (to, x, y) asks for a path and follows it; a stop on the way leaves the body at
+/// A way that a command brings has at most so many points.
+inline constexpr std::size_t kGivenPoints = 64;
+
+/// Drives on wheels: drive (to, x, y) asks for a path and follows it; drive (to, way) drives over the points of that text
+/// (core/terrain/way.hpp) instead, asks nobody, and makes no detours. A stop on the way leaves the body at
 /// the stop place. Before a hidden rock it stands, looks, and asks for a path around (a repair of its own,
 /// R146), as long as there are detours and time left. turn (x, y) turns in place until it heads for that point. In soil that does not bear it the body digs itself in
 /// (`bogged-down`) and drives no more. With a soil sensor it ends `no-go` where another vehicle must not follow, and marks a
@@ -36,11 +40,9 @@ class Drive final : public world::Component, public world::Mobility {
   Drive(DriveSettings, world::RandomStream noise);
 
   std::vector<world::CommandForm> commands() const override {
-    return {{"drive", {"to", "x", "y"}}, {"turn", {"x", "y"}}};
+    return {{"drive", {"to", "x", "y"}, "way", {"x", "y"}}, {"turn", {"x", "y"}}};
   }
-  std::vector<world::StateForm> state_forms() const override {
-    return {{"idle-at", 1}, {"going-to", 1}};
-  }
+  std::vector<world::StateForm> state_forms() const override { return {{"idle-at", 1}, {"going-to", 1}}; }
   /// Returns idle-at (place) or going-to (place): while it turns, the place where it stands.
   temporal::State state() const override;
   bool busy() const override { return target_.has_value(); }
@@ -73,6 +75,7 @@ class Drive final : public world::Component, public world::Mobility {
     double x = 0;
     double y = 0;
     bool turns = false;  // in place, towards (x, y)
+    bool given = false;  // the command brings its way
   };
 
   void stand(std::string place);

@@ -81,7 +81,8 @@ class DriveIntegration {
       ++now_.next_waypoint;
       best_distance_ = INFINITY;
     }
-    if (now_.next_waypoint >= way_.size() || here() == way_.back()) {
+    if (now_.next_waypoint >= way_.size() ||
+        (now_.next_waypoint + 1 == way_.size() && here() == way_.back())) {
       trace.outcome = DriveEnd::arrived;
       return true;
     }

@@ -50,6 +50,11 @@ MarkerCamera::MarkerCamera(const MarkerCameraSettings& settings, world::RandomSt
 
 State MarkerCamera::state() const { return busy() ? State{"looking", {}} : State{"idle", {}}; }
 
+std::vector<std::string> MarkerCamera::awaited_windows() const {
+  if (settings_.light.empty()) return {};
+  return {settings_.light};
+}
+
 Ending MarkerCamera::forbids_driving() const {
   if (!busy()) return std::nullopt;
   return Failure{"camera-busy", "the camera is looking for a marker; wait for it"};
@@ -64,6 +69,11 @@ Ending MarkerCamera::begin(const world::Task& task, Time now, Surroundings& arou
     return Failure{"driving", "the robot drives and the image would be blurred; stop it first"};
   results_.clear();
   look_ = Look{robot, now + temporal::seconds(settings_.duration_s)};
+  if (!settings_.light.empty()) {
+    const auto& windows = around.environment.windows;
+    const auto light = std::ranges::find(windows, settings_.light, &world::Window::timeline);
+    look_->dark = light == windows.end() || !light->is_open(now);
+  }
   return std::nullopt;
 }
 
@@ -80,6 +90,7 @@ Ending MarkerCamera::finish(Surroundings& around) {
   const bool missed = noise_.uniform() < settings_.miss_share;
   const double east = noise_.normal(), north = noise_.normal(), turn = noise_.normal();
   std::string why = why_unseen(around.environment.ground, settings_, here, there);
+  if (why.empty() && look.dark) why = settings_.light + " is closed";
   if (why.empty() && missed) why = "it was not found in the image";
   if (!why.empty()) return Failure{"marker-not-seen", "the marker of " + look.robot + " is not seen: " + why};
   const double spread = settings_.range_noise * terrain::distance({here.x, here.y}, {there.x, there.y});

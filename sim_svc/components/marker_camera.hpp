@@ -24,6 +24,7 @@ struct MarkerCameraSettings {
   double miss_share = 0.02;    ///< of the images in which a marker that is there is not found
   double range_noise = 0.02;   ///< of the place, as a share of the range
   double heading_noise_rad = 0.05;
+  std::string light{};  ///< timeline of the window in which anything is seen; empty: always
 };
 
 /// Says why a camera at `from` does not see a marker at `to`; empty: it does. Ground, the rocks of the map and hidden
@@ -40,6 +41,7 @@ class MarkerCamera final : public world::Component, public world::BodyInterlock 
   std::vector<world::CommandForm> commands() const override { return {{"localise", {"robot"}}}; }
   std::vector<world::StateForm> state_forms() const override { return {{"idle"}, {"looking"}}; }
   temporal::State state() const override;
+  std::vector<std::string> awaited_windows() const override;
   bool busy() const override { return look_.has_value(); }
   world::Ending forbids_driving() const override;
 
@@ -56,6 +58,7 @@ class MarkerCamera final : public world::Component, public world::BodyInterlock 
   struct Look {
     std::string robot;
     temporal::Time end{};
+    bool dark = false;
   };
 
   MarkerCameraSettings settings_;

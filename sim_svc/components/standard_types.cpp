@@ -83,6 +83,7 @@ world::MakeComponent read_marker_camera(Settings& in) {
   out.miss_share = in.share("miss_share", out.miss_share);
   out.range_noise = in.number("range_noise", out.range_noise);
   out.heading_noise_rad = in.number("heading_noise_rad", out.heading_noise_rad);
+  out.light = in.text("light", out.light);
   return making<MarkerCamera>(out);
 }
 

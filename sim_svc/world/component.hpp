@@ -5,6 +5,7 @@
 #include <compare>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -33,6 +34,11 @@ struct Surroundings {
 struct CommandForm {
   std::string name;
   std::vector<std::string> arguments;
+  std::string instead{};              ///< an argument that may be given in the place of
+  std::vector<std::string> spared{};  ///< these of `arguments`
+
+  /// Returns the arguments that are needed beside those given.
+  std::vector<std::string> missing(const std::function<bool(const std::string&)>& is_given) const;
 };
 
 /// Is a state timeline beside the component's own, `<robot>.<name>`, of a thing that it handles

@@ -92,11 +92,9 @@ Ending Robot::refusal_of(const Part& one, const Task& task) const {
     return Failure{"unknown-command",
                    one.name + " has no command '" + task.command + "'; known: " + joined(forms)};
   }
-  for (const std::string& argument : form->arguments) {
-    if (!task.arguments.contains(argument)) {
-      return Failure{"missing-argument", task.command + " needs the argument '" + argument + "'"};
-    }
-  }
+  const auto missing = form->missing([&](const std::string& name) { return task.arguments.contains(name); });
+  if (!missing.empty())
+    return Failure{"missing-argument", task.command + " needs the argument '" + missing.front() + "'"};
   if (one.running) return Failure{"busy", one.name + " still runs " + one.running->key.activity};
   return std::nullopt;
 }

@@ -23,6 +23,7 @@ class Listener final : public services::Service {
   Listener(services::Node& node, HeardFlight& heard) {
     keep(node, topics::observation, heard.observations);
     keep(node, topics::step_status, heard.steps);
+    keep(node, topics::command, heard.commands);
     keep(node, topics::command_ack, heard.answers);
     keep(node, topics::data_product, heard.products);
     keep(node, topics::plan_delta, heard.plans);
@@ -54,7 +55,8 @@ void add_listener(const fs::path& mission) {
 
 }  // namespace
 
-HeardFlight hear_flight(const fs::path& mission, const std::string& scenario, const fs::path& run_folder) {
+HeardFlight hear_flight(const fs::path& mission, const std::string& scenario, const fs::path& run_folder,
+                        std::uint64_t seed) {
   static int domain = 0;
   add_listener(mission);
   fs::create_directories(run_folder);
@@ -62,6 +64,7 @@ HeardFlight hear_flight(const fs::path& mission, const std::string& scenario, co
   options.run.mission = mission;
   options.run.scenario = scenario;
   options.run.run_folder = run_folder;
+  options.run.seed = seed;
   options.domain = ++domain;
   options.programs = {{kListener, make_listener}};
   HeardFlight out;

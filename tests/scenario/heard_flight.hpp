@@ -18,6 +18,7 @@ namespace roci::scenario {
 struct HeardFlight {
   std::vector<v1::Observation> observations;
   std::vector<v1::StepStatus> steps;
+  std::vector<v1::Command> commands;
   std::vector<v1::CommandAck> answers;  ///< of owners to commands
   std::vector<v1::DataProduct> products;
   std::vector<v1::PlanDelta> plans;
@@ -28,9 +29,9 @@ struct HeardFlight {
   nlohmann::json summary;             ///< of the only executive
 };
 
-/// Flies the mission to its end, over inproc, with the seed 1; its trace is that of processes (rehearsal/README.md). A listener is added
+/// Flies the mission to its end, over inproc, with one seed; its trace is that of processes (rehearsal/README.md). A listener is added
 /// to the services of mission.yaml, so the folder is one of the test's own.
 HeardFlight hear_flight(const std::filesystem::path& mission, const std::string& scenario,
-                        const std::filesystem::path& run_folder);
+                        const std::filesystem::path& run_folder, std::uint64_t seed = 1);
 
 }  // namespace roci::scenario

@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include "core/terrain/way.hpp"
 #include "pathplan_svc/pathplan_service.hpp"
 #include "sim_svc/sim_service.hpp"
 
@@ -34,6 +35,10 @@ YardCommand drive(const std::string& robot, double x, double y) {
           {{"to", "there"}, {"x", text_of_number(x)}, {"y", text_of_number(y)}}};
 }
 
+YardCommand drive_over(const std::string& robot, const std::vector<terrain::Point>& way) {
+  return {"sim_svc", robot, "nav", "drive", {{"to", "there"}, {"way", terrain::to_text(way)}}};
+}
+
 YardCommand path(const std::string& robot, terrain::Point from, terrain::Point to) {
   const auto text = [](terrain::Point p) { return text_of_number(p.x) + " " + text_of_number(p.y); };
   return {robot + ".path", robot, "", "path", {{"from", text(from)}, {"to", text(to)}}};
@@ -46,6 +51,14 @@ YardCommand turn(const std::string& robot, double x, double y) {
 YardCommand localise() { return {"sim_svc", "primary", "eye", "localise", {{"robot", "scout"}}}; }
 
 YardCommand tell(const std::string& robot) { return {robot + ".path", robot, "map", "tell", {}}; }
+
+YardCommand merge(const std::string& robot, const std::string& author, double version, double within_s) {
+  return {robot + ".path",
+          robot,
+          "map",
+          "merge",
+          {{"author", author}, {"version", text_of_number(version)}, {"within_s", text_of_number(within_s)}}};
+}
 
 Yard::Yard(const std::string& scenario, std::vector<std::string> vendors, Script script, std::uint64_t seed)
     : folder_(std::filesystem::temp_directory_path() / ("roci_yard_" + std::to_string(::getpid()))),

@@ -13,6 +13,7 @@
 #include "services/publisher.hpp"
 #include "services/rpc.hpp"
 #include "services/service.hpp"
+#include "services/topics.hpp"
 #include "tests/unit/services/sim_run.hpp"
 
 namespace roci::scenario {
@@ -28,10 +29,14 @@ struct YardCommand {
 /// Asks the path planner of the robot for the way from one place to another; its word has the way, or the code no-path.
 YardCommand path(const std::string& robot, terrain::Point from, terrain::Point to);
 YardCommand drive(const std::string& robot, double x, double y);
+/// The robot drives over these points and asks no planner.
+YardCommand drive_over(const std::string& robot, const std::vector<terrain::Point>& way);
 YardCommand turn(const std::string& robot, double x, double y);
 YardCommand localise();
 /// The path planner of the robot tells its map.
 YardCommand tell(const std::string& robot);
+/// The path planner of the robot waits for at least this version of the other's map, so many seconds at most.
+YardCommand merge(const std::string& robot, const std::string& author, double version, double within_s = 60);
 
 struct YardWord {
   v1::CommandStage stage = v1::STAGE_UNKNOWN;
@@ -49,6 +54,17 @@ class Yard {
   /// `vendors` are those of sim_svc, primary.path, scout.path and the driver, one after the other.
   Yard(const std::string& scenario, std::vector<std::string> vendors, Script script, std::uint64_t seed = 1);
   ~Yard();
+
+  /// Hands all that both rovers tell to a view, which takes it as a console's does and must outlive the run.
+  template <class View>
+  void watch(View& view) {
+    namespace topics = services::topics;
+    const auto take = [&view](const auto& sample) { view.take(sample); };
+    services::subscribe(*driver_, topics::observation, take);
+    services::subscribe(*driver_, topics::known_map, take);
+    services::subscribe(*driver_, topics::command, take);
+    services::subscribe(*driver_, topics::command_ack, take);
+  }
 
   void run();
 

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "ground_console/cli/robots.hpp"
 #include "ground_console/cli/watch/canvas.hpp"
 #include "ground_console/lib/mission_view.hpp"
 
@@ -24,6 +25,21 @@ void draw_goals(const lib::MissionView& view, const Rectangle& area, Canvas& can
 /// Way, robot, goals' places and hazards; north is up, a column as wide as half a row is high. Draws nothing
 /// while no place is known.
 void draw_map(const lib::MissionView& view, const Rectangle& area, Canvas& canvas);
+
+inline constexpr std::size_t kLeastMapColumns = 12, kLeastMapRows = 4;
+
+/// What each robot knows, all at one scale: its own map with the ground that it keeps clear of, its way, where it is, where the others
+/// are. One area for each robot; draws nothing while no place is known.
+void draw_maps(const lib::MissionView& view, const std::vector<Robot>& robots,
+               const std::vector<Rectangle>& areas, Canvas& canvas);
+
+/// Several robots side by side, each with its place, its states, its map in words and as a picture, and below them the states of
+/// the team. Returns how many rows it took.
+std::size_t draw_robots(const lib::MissionView& view, const std::vector<Robot>& robots, const Rectangle& area,
+                        Canvas& canvas);
+
+/// Decisions that are open, and repairs, those under way first. Returns how many rows it took: none where there are none.
+std::size_t draw_open(const lib::MissionView& view, const Rectangle& area, Canvas& canvas);
 
 /// Windows and activities over time: done, running, planned, and a line for now.
 void draw_plan(const lib::MissionView& view, const Rectangle& area, Canvas& canvas);

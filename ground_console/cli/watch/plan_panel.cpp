@@ -2,6 +2,7 @@
 
 #include "ground_console/cli/plan_table.hpp"
 #include "ground_console/cli/watch/axis.hpp"
+#include "ground_console/cli/watch/plan_rows.hpp"
 
 namespace roci::console::cli::watch {
 namespace {
@@ -30,11 +31,15 @@ StepLook step_look(const v1::StepStatus* step) {
   return {" ", Style::dim};
 }
 
-std::string label_of(const v1::PlanActivity& activity) {
-  std::string out = activity.name();
-  for (const v1::Property& argument : arguments_of(activity)) {
-    const bool is_name = argument.value().find_first_not_of("0123456789.-") != std::string::npos;
-    if (is_name) out += " " + argument.value();
+// A name with arguments of its own, "base.driving(dock, gate)", says all.
+std::string label_of(const PlanRow& row) {
+  std::string out(2 * row.depth, ' ');
+  out += row.activity->name();
+  if (row.activity->name().find('(') == std::string::npos) {
+    for (const v1::Property& argument : arguments_of(*row.activity)) {
+      const bool is_name = argument.value().find_first_not_of("0123456789.-") != std::string::npos;
+      if (is_name) out += " " + argument.value();
+    }
   }
   return out;
 }
@@ -46,41 +51,36 @@ void draw_windows(const lib::MissionView& view, const Axis& axis, std::size_t ro
   }
 }
 
-// The first activity to be shown when not all fit: the past scrolls out.
-std::size_t first_shown(const lib::MissionView& view, std::size_t room) {
-  const auto& activities = view.plan()->activities();
-  std::size_t first = 0;
-  while (first + room < activities.size()) {
-    const v1::StepStatus* step = view.step(activities[first].id());
-    if (step == nullptr || step->ended_us() == kNotYet) break;
-    ++first;
-  }
-  return first;
-}
-
 }  // namespace
 
 void draw_plan(const lib::MissionView& view, const Rectangle& area, Canvas& canvas) {
   if (!view.plan() || area.height < 3 || area.width < Axis::kLeast) return;
-  const auto& activities = view.plan()->activities();
   const Axis axis(view, area);
   std::size_t row = area.row;
   canvas.put(row, area.column, "Plan " + std::to_string(view.plan()->version()), Style::title);
   axis.draw_ends(row++, canvas);
   if (view.mission() && !view.mission()->windows().empty()) draw_windows(view, axis, row++, canvas);
-  const std::size_t room = area.row + area.height - row;
-  const std::size_t first = first_shown(view, room);
-  for (std::size_t i = first; i < std::min(first + room, activities.size()); ++i, ++row) {
-    const v1::PlanActivity& activity = activities[i];
+  const PlanRows shown = plan_rows(view, area.row + area.height - row);
+  if (shown.gone + shown.more > 0) {
+    std::string left_out = shown.gone > 0 ? std::to_string(shown.gone) + " over" : "";
+    if (shown.more > 0) left_out += (left_out.empty() ? "" : ", ") + std::to_string(shown.more) + " more";
+    canvas.put(area.row, area.column + 10, "(" + left_out + ")", Style::dim, axis.label() - 11);
+  }
+  for (const PlanRow& one : shown.rows) {
+    const v1::PlanActivity& activity = *one.activity;
     const v1::StepStatus* step = view.step(activity.id());
     const StepLook look = step_look(step);
     canvas.put(row, area.column + 2, look.sign, look.style);
-    canvas.put(row, area.column + 4, label_of(activity), look.style, Axis::kLabel - 5);
+    const std::string folded = one.folded == 0 ? "" : " +" + std::to_string(one.folded);
+    const std::size_t room = axis.label() - 5 - folded.size();
+    const std::size_t end = canvas.put(row, area.column + 4, label_of(one), look.style, room);
+    canvas.put(row, end, folded, Style::dim);
     axis.draw(row, {view.now_us(), view.now_us()}, "│", Style::dim, canvas);
     const Span span = span_of(activity, step, view.now_us());
     axis.draw(row, span, "░", Style::dim, canvas);
     const bool begun = step != nullptr && step->started_us() != kNotYet;
     if (begun) axis.draw(row, {span.from, std::min(span.to, view.now_us())}, "█", look.style, canvas);
+    ++row;
   }
 }
 

@@ -40,12 +40,13 @@ void draw_head(const lib::MissionView& view, Canvas& canvas) {
 }
 
 // States and levels as last observed, the subsystem's name without its owner's.
-void draw_robot(const lib::MissionView& view, std::size_t row, Canvas& canvas) {
+void draw_robot(const lib::MissionView& view, const std::vector<Robot>& robots, std::size_t row,
+                Canvas& canvas) {
   std::size_t column = canvas.put(row, 0, "Robot", Style::title) + 2;
   for (const auto& [name, observation] : view.timelines()) {
     const auto dot = name.find('.');
     const bool battery = name.ends_with(".battery");
-    const bool robot = dot != std::string::npos && view.ways().contains(name.substr(0, dot));
+    const bool robot = dot != std::string::npos && !robots.empty() && name.substr(0, dot) == robots[0].name;
     if (!robot || (observation.observed().kind() != v1::VALUE_STATE && !battery)) continue;
     column = canvas.put(row, column, name.substr(dot + 1) + " ", Style::dim);
     column = canvas.put(row, column, lib::value_text(observation.observed())) + 3;
@@ -59,13 +60,23 @@ Canvas watch_screen(const lib::MissionView& view, std::size_t width, std::size_t
   draw_head(view, canvas);
   const bool map_fits = width >= kNarrowest;
   const std::size_t goals_width = width >= kGoals + kLeastMap ? kGoals : map_fits ? width * 3 / 5 : width;
+  const std::vector<Robot> robots = robots_of(view);
+  const bool several = robots.size() > 1;  // then each has a map of its own beside the others
+  const bool one_map = map_fits && !several;
   const std::size_t wanted =
-      std::max(view.goals().size() + 1, map_fits && !view.ways().empty() ? kMapRows : 0);
-  const std::size_t top = std::min(wanted, height / 3);
+      std::max(view.goals().size() + 1, one_map && !view.ways().empty() ? kMapRows : 0);
+  const std::size_t top = std::min(wanted, several ? height / 6 : height / 3);
   draw_goals(view, {2, 0, std::min(goals_width, kGoals), top}, canvas);
-  if (map_fits) draw_map(view, {2, goals_width + 1, width - goals_width - 1, top}, canvas);
-  draw_robot(view, top + 3, canvas);
-  const std::size_t plan_row = top + 5;
+  if (one_map) draw_map(view, {2, goals_width + 1, width - goals_width - 1, top}, canvas);
+  std::size_t robots_height = 1;
+  if (several) {
+    robots_height = draw_robots(view, robots, {top + 3, 0, width, height * 2 / 5}, canvas);
+  } else {
+    draw_robot(view, robots, top + 3, canvas);
+  }
+  const std::size_t open_row = top + 4 + robots_height;
+  const std::size_t open = draw_open(view, {open_row, 0, width, height / 6}, canvas);
+  const std::size_t plan_row = open_row + open + (open > 0 ? 1 : 0);
   const std::size_t event_rows = std::clamp<std::size_t>(height / 4, 4, kEventRows);
   const std::size_t events_row = height > plan_row + event_rows ? height - event_rows : plan_row;
   const std::vector<Level> levels = levels_of(view);

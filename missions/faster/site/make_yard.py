@@ -12,7 +12,7 @@ TALLEST = 1.0  # rock of a black pixel
 # Rocks as (x, y, radius, height). The first two leave the middle of the straight way open; the big one stands behind it.
 ROCKS = [
     (11.0, 17.2, 0.6, 0.7), (11.0, 12.8, 0.6, 0.7),
-    (15.5, 15.2, 1.0, 1.0),
+    (16.5, 15.2, 1.0, 1.0),
     (18.0, 20.5, 0.5, 0.6), (19.5, 9.5, 0.5, 0.6), (6.5, 22.0, 0.4, 0.5), (7.5, 7.0, 0.4, 0.4), (23.5, 17.5, 0.4, 0.4),
 ]
 

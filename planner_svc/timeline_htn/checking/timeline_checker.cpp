@@ -91,6 +91,32 @@ std::optional<model::Pattern> asked_for(const Model& model, const temporal::Cond
   return out;
 }
 
+// Every row that a relation of the model could have is looked up by its timeline's name.
+void put_relations(const engine::Request& request, Model& model) {
+  for (model::Relation& relation : model.relations) {
+    if (relation.timeline.empty()) continue;
+    std::vector<std::pair<std::string, std::vector<Index>>> rows{{relation.timeline, {}}};
+    for (const Index type : relation.types) {
+      std::vector<std::pair<std::string, std::vector<Index>>> longer;
+      for (const auto& [name, row] : rows)
+        for (Index o = 0; o < model.objects.size(); ++o)
+          if (model.objects[o].type == type) {
+            longer.emplace_back(name + "." + model.objects[o].name, row);
+            longer.back().second.push_back(o);
+          }
+      rows = std::move(longer);
+    }
+    for (const auto& [name, row] : rows) {
+      const auto seen = request.state.find(name);
+      if (seen == request.state.end() || std::ranges::find(relation.rows, row) != relation.rows.end())
+        continue;
+      const auto* state = std::get_if<temporal::State>(&seen->second);
+      if (state && state->name == relation.value) relation.rows.push_back(row);
+    }
+    std::ranges::sort(relation.rows);
+  }
+}
+
 void put_goals(const engine::Request& request, Model& model, std::vector<std::string>& out) {
   const auto since_origin = [&](temporal::Time time) {
     return temporal::bounded(time) ? std::max(temporal::Duration{0}, time - request.origin) : time;
@@ -129,6 +155,7 @@ std::optional<Model> model_of(const engine::Request& request, std::vector<std::s
     model->problem.emplace().horizon = temporal::seconds(86400);
     model->problem->initial.resize(model->components.size());
   }
+  put_relations(request, *model);
   put_states(request, *model, out);
   put_goals(request, *model, out);
   if (out.empty())

@@ -43,6 +43,9 @@ struct Relation {
   std::string name;
   std::vector<Index> types;
   std::vector<std::vector<Index>> rows;  ///< sorted, each once
+  /// Of a relation that is observed: it holds of a and b, too, where the timeline "TIMELINE.a.b" has this value. Else both are empty.
+  std::string timeline{};
+  std::string value{};
   friend bool operator==(const Relation&, const Relation&) = default;
 };
 struct NumberTable {

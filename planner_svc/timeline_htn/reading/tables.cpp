@@ -20,8 +20,11 @@ std::size_t rows_of(const model::Model& model) {
 
 // Declares a table where the entry has its arguments.
 void declare(const std::string& name, const Entry& entry, Names& names, Vocabulary& vocabulary,
-             const std::function<void(std::vector<Index>)>& add) {
-  entry.allow_only({"arguments", "symmetric", "rows"});
+             bool observable, const std::function<void(std::vector<Index>)>& add) {
+  if (observable)
+    entry.allow_only({"arguments", "symmetric", "rows", "observed"});
+  else
+    entry.allow_only({"arguments", "symmetric", "rows"});
   const auto arguments = entry.find("arguments");
   if (!arguments) return;
   std::vector<Index> types;
@@ -96,15 +99,22 @@ void read_objects(const Entry& section, Vocabulary& vocabulary) {
 
 void declare_relations(const Entry& section, Vocabulary& vocabulary) {
   section.each_field([&](const std::string& name, const Entry& entry) {
-    declare(name, entry, vocabulary.relations, vocabulary, [&](std::vector<Index> types) {
-      vocabulary.model.relations.push_back({name, std::move(types), {}});
+    declare(name, entry, vocabulary.relations, vocabulary, true, [&](std::vector<Index> types) {
+      model::Relation& relation = vocabulary.model.relations.emplace_back();
+      relation.name = name;
+      relation.types = std::move(types);
+      if (const auto observed = entry.find("observed")) {
+        observed->allow_only({"timeline", "value"});
+        relation.timeline = observed->at("timeline").text();
+        relation.value = observed->at("value").text();
+      }
     });
   });
 }
 
 void declare_numbers(const Entry& section, Vocabulary& vocabulary) {
   section.each_field([&](const std::string& name, const Entry& entry) {
-    declare(name, entry, vocabulary.numbers, vocabulary, [&](std::vector<Index> types) {
+    declare(name, entry, vocabulary.numbers, vocabulary, false, [&](std::vector<Index> types) {
       vocabulary.model.numbers.push_back({name, std::move(types), {}});
     });
   });

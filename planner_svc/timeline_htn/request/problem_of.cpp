@@ -109,6 +109,39 @@ void put_objects(const Request& request, Model& model) {
   }
 }
 
+// The objects that stand behind the relation's name in a timeline's: "way.w2.w3" of "way"; nothing: it is another timeline.
+std::optional<std::vector<Index>> row_of(const Model& model, const model::Relation& relation,
+                                         const std::string& timeline) {
+  if (!timeline.starts_with(relation.timeline + ".")) return std::nullopt;
+  std::vector<Index> row;
+  std::size_t from = relation.timeline.size() + 1;
+  for (const Index type : relation.types) {
+    if (from > timeline.size()) return std::nullopt;
+    const std::size_t to =
+        row.size() + 1 == relation.types.size() ? timeline.size() : timeline.find('.', from);
+    if (to == std::string::npos) return std::nullopt;
+    const auto object = object_named(model, timeline.substr(from, to - from), type);
+    if (!object) return std::nullopt;
+    row.push_back(*object);
+    from = to + 1;
+  }
+  return row;
+}
+
+void put_relations(const Request& request, Model& model) {
+  for (model::Relation& relation : model.relations) {
+    if (relation.timeline.empty()) continue;
+    for (const auto& [timeline, value] : request.state) {
+      const auto* seen = std::get_if<temporal::State>(&value);
+      if (seen == nullptr || seen->name != relation.value) continue;
+      if (auto row = row_of(model, relation, timeline)) relation.rows.push_back(std::move(*row));
+    }
+    std::ranges::sort(relation.rows);
+    const auto doubled = std::ranges::unique(relation.rows);
+    relation.rows.erase(doubled.begin(), doubled.end());
+  }
+}
+
 void put_states(const Request& request, Model& model, std::vector<Misfit>& misfits) {
   for (Index c = 0; c < model.components.size(); ++c) {
     const Observation observation = observed_state(request, model, c);
@@ -169,6 +202,7 @@ Observation observed_state(const Request& request, const Model& model, Index com
 std::vector<Misfit> put_request(const Request& request, Model& model) {
   std::vector<Misfit> misfits;
   put_objects(request, model);
+  put_relations(request, model);
   if (!model.problem) {
     model.problem.emplace();
     model.problem->horizon = kDay;

@@ -150,6 +150,11 @@ bool Decompositions::derivable_without(StateId root, const std::vector<StateId>&
   return derived[root];
 }
 
+bool Decompositions::derivable(StateId state) {
+  if (const std::vector<StateId> found = explore(state); !found.empty()) measure(found);
+  return entries_[state].values != kNone;
+}
+
 std::uint32_t Decompositions::values(StateId state) { return entry(state).values; }
 
 const std::vector<StateId>& Decompositions::landmarks(StateId state) { return entry(state).landmarks; }

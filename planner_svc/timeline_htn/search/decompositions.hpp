@@ -14,6 +14,8 @@ class Decompositions {
  public:
   Decompositions(Ground& ground, const Successors& successors) : ground_(&ground), successors_(&successors) {}
 
+  /// Returns whether behaviours make a state up at all. Of one object of this class either this is asked or what stands below.
+  bool derivable(StateId state);
   /// Returns the fewest values that a state needs, itself counted and those to rest in not; kNone: no behaviours make it up.
   std::uint32_t values(StateId state);
   /// Returns states without which it cannot come about, itself among them, sorted: those that all its ways share.

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "planner_svc/timeline_htn/search/decompositions.hpp"
+
 namespace roci::planner::timeline_htn::search {
 
 using model::Model, model::Problem;
@@ -47,6 +49,47 @@ Search::Search(const Model& model, const Resolver& resolver)
       goals_(goal_order(*model.problem)),
       estimate_(make_estimate(resolver.heuristic, ground_, successors_)) {
   start();
+  if (state_ != Outcome::searching) return;
+  if (const auto obstacle = out_of_reach()) {
+    state_ = Outcome::exhausted;
+    obstacle_ = *obstacle;
+  }
+}
+
+std::optional<Obstacle> Search::out_of_reach() {
+  Decompositions below(ground_, successors_);
+  const auto can_be = [&](StateId state) {
+    return ground_.at(state).kind != model::StateKind::complex || below.derivable(state);
+  };
+  const Model& model = ground_.model();
+  for (const Index g : goals_) {
+    const model::Pattern& wanted = model.problem->goals[g].state;
+    const StateId from = plan_->tokens()[plan_->current(wanted.component)].state;
+    std::vector<StateId> all;
+    for (Index s = 0; s < model.components[wanted.component].states.size(); ++s) {
+      const auto parameters =
+          static_cast<Index>(model.components[wanted.component].states[s].parameters.size());
+      model::Pattern any{wanted.component, s, {}};
+      for (Index i = 0; i < parameters; ++i) any.terms.push_back({i, false});
+      const std::vector<Index> open(parameters, kNone);
+      const auto found = ground_.reachable(from, any, open);
+      all.insert(all.end(), found.begin(), found.end());
+    }
+    const auto targets = ground_.reachable(from, wanted, {});
+    if (targets.empty()) continue;  // the search says what is missing
+    const bool within_reach = std::ranges::any_of(targets, [&](StateId target) {
+      return target == from || (can_be(target) && std::ranges::any_of(all, [&](StateId before) {
+                                  return ground_.may_follow(before, target) && can_be(before);
+                                }));
+    });
+    if (within_reach) continue;
+    Obstacle out{Obstacle::Kind::no_behaviour, g, targets.front()};
+    if (can_be(targets.front()))
+      for (const StateId before : all)
+        if (ground_.may_follow(before, targets.front()) && !can_be(before)) out.state = before;
+    return out;
+  }
+  return std::nullopt;
 }
 
 void Search::start() {

@@ -83,6 +83,8 @@ class Search {
     Step step;
   };
   void start();
+  // A goal that no timeline can come to, since behaviours with the objects that there are make up nothing before it.
+  std::optional<Obstacle> out_of_reach();
   bool next_pass();
   bool go_to(Index node);
   void expand(Index node);

@@ -46,6 +46,7 @@ void for_each_topic(Use use) {
   use(topics::executed_plan);
   use(topics::terrain_finding);
   use(topics::map_patch);
+  use(topics::known_map);
   use(topics::plan_delta);
   use(topics::plan_receipt);
   use(topics::call_cancel);

@@ -52,6 +52,7 @@ const std::vector<Decoder>& decoders() {
                                         decoder(topics::executed_plan),
                                         decoder(topics::terrain_finding),
                                         decoder(topics::map_patch),
+                                        decoder(topics::known_map),
                                         decoder(topics::plan_delta),
                                         decoder(topics::plan_receipt),
                                         decoder(topics::call_cancel),

@@ -10,9 +10,9 @@
 #include <fstream>
 #include <functional>
 
-#include "services/owner/command_server.hpp"
 #include "services/publisher.hpp"
 #include "services/rpc.hpp"
+#include "tests/unit/dedicated_svc/wheels.hpp"
 #include "tests/unit/services/sim_run.hpp"
 
 namespace roci::dedicated {
@@ -24,7 +24,6 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
-namespace owner = services::owner;
 namespace topics = services::topics;
 
 constexpr char kMission[] = R"(
@@ -52,45 +51,22 @@ dedicated:
         - {name: spot, transform: {place: {robot: scout, ahead_m: 2, left_m: 1}, robot: scout}, check: {world_x: {at_least: 2, at_most: 2}}}
         - {name: seen, observe: {timeline: ground.window, is: [true]}}
       results: {y: "{spot.world_y}", left: "{spot.y}"}
+    Follow:
+      calls:
+        - {name: here, path: {planner: nav, from: {robot: scout}, to: {object: w1}}}
+        - {name: on, path: {planner: nav, from: {object: w1}, to: {x: "9", y: "4"}, short_m: 1.25}, check: {length_m: {at_least: 6, at_most: 6}, end_x: {at_least: 7.75, at_most: 7.75}, end_y: {at_least: 4, at_most: 4}, end_heading_rad: {at_least: 0, at_most: 0}}}
+        - {name: short, path: {planner: nav, from: {robot: scout}, to: {object: w1}, short_m: 99}, check: {length_m: {at_least: 5}, end_x: {at_most: 0}, end_heading_rad: {at_least: 0.5, at_most: 0.5}}}
+        - {name: drive, command: {owner: wheels, robot: scout, subsystem: nav, name: drive, arguments: {to: w1, way: "{here.way};{on.way};{short.way}"}}}
+    Merge:
+      calls:
+        - {name: m, command: {owner: wheels, robot: scout, subsystem: map, name: merge}}
+        - {name: a, path: {planner: nav, from: {robot: scout}, to: {object: w1}, map_within_s: 20, merged: m}}
+        - {name: wait, wait_s: 0.000001}
+        - {name: b, path: {planner: nav, from: {robot: scout}, to: {object: w1}, map_within_s: 20, merged: m}}
     Look:
       calls:
         - {name: seen, observe: {timeline: scout.nav, is: [idle-at, w1]}, within_s: 50}
 )";
-
-// A subsystem whose commands take 20 s and end as the script says: the newest word of it is used again and again.
-class Wheels final : private owner::Driver {
- public:
-  Wheels(services::Node& node, std::deque<std::string> script)
-      : node_(node), script_(std::move(script)), commands_(node, *this) {}
-  std::vector<std::string> begun;
-
- private:
-  void carry_out(const owner::Request& request) override {
-    begun.push_back(request.robot + "." + request.subsystem + " " + request.command + " " +
-                    request.key.activity);
-    commands_.say(request.key, {owner::Stage::accepted});
-    running_ = request.key;
-    const std::string how = script_.front();
-    if (script_.size() > 1) script_.pop_front();
-    if (how == "for-ever") return;
-    if (how == "dies") node_.after(5s, [] { throw services::Crash{}; });
-    timer_ = node_.after(20s, [this, how] {
-      const bool done = how == "done";
-      commands_.say(*running_,
-                    {done ? owner::Stage::completed : owner::Stage::failed, how, "", {{}, 5.0, {}}});
-    });
-  }
-  void break_off(const owner::CommandKey& key, const owner::Word& why) override {
-    node_.cancel(timer_);
-    commands_.say(key, why);
-  }
-
-  services::Node& node_;
-  std::deque<std::string> script_;
-  owner::CommandServer commands_;
-  std::optional<owner::CommandKey> running_;
-  services::Node::TimerId timer_ = 0;
-};
 
 class DedicatedServiceTest : public testing::Test {
  protected:
@@ -143,6 +119,7 @@ class DedicatedServiceTest : public testing::Test {
                                 std::deque<std::string> script = {"done"},
                                 v1::MotionOutcome path = v1::MOTION_FOUND,
                                 const std::function<void(services::Node& master)>& also = {}) {
+    std::filesystem::remove(folder_ / "loco.calls");
     services::SimRun run({"master", "wheels", "nav", "loco"});
     services::Node& master = run.add("master");
     services::Node& wheels_node = run.add("wheels");
@@ -154,6 +131,9 @@ class DedicatedServiceTest : public testing::Test {
       reply.reason("said nav");
       reply.length_m(std::hypot(request.goal_pose().x_m() - request.origin().x_m(),
                                 request.goal_pose().y_m() - request.origin().y_m()));
+      reply.waypoints({request.origin(), request.goal_pose()});
+      reply.waypoints()[0].heading_rad(0.5);
+      if (points_ > 0) reply.waypoints().resize(points_, request.goal_pose());
       responder.reply(std::move(reply));
     });
     const auto dedicated = make_service(run.add("loco"), settings_);
@@ -165,6 +145,7 @@ class DedicatedServiceTest : public testing::Test {
       static const std::vector<std::string> stages{"accepted",  "rejected",      "completed", "failed",
                                                    "cancelled", "cancel-failed", "unknown"};
       if (ack.owner() != "loco") return;
+      reasons_.push_back(ack.reason());
       std::string results;
       for (const v1::NamedValue& one : ack.outcome().measured())
         if (one.name() != "duration_s")
@@ -183,12 +164,14 @@ class DedicatedServiceTest : public testing::Test {
     master.after(400s, [&master] { master.stop(); });
     run.run();
     begun_ = wheels.begun;
+    ways_ = wheels.ways;
     return heard;
   }
 
   std::filesystem::path folder_;
   services::RunSettings settings_;
-  std::vector<std::string> begun_;
+  std::vector<std::string> begun_, ways_, reasons_;
+  std::size_t points_ = 0;  // of each path; 0: its two ends
 };
 
 TEST_F(DedicatedServiceTest, CarriesAMethodOutAndTellsWhatItBrought) {
@@ -196,6 +179,24 @@ TEST_F(DedicatedServiceTest, CarriesAMethodOutAndTellsWhatItBrought) {
       talk({{1s, command("a", "Traverse")}}),
       ElementsAre("0 idle", "1 a accepted", "1 traversing", "21 a completed done length_m=5.0", "21 at"));
   EXPECT_THAT(begun_, ElementsAre("scout.nav drive master/1/a/2"));
+}
+
+TEST_F(DedicatedServiceTest, AWayIsCutShortJoinedAndHandedOn) {
+  EXPECT_THAT(talk({{1s, command("a", "Follow")}}), Contains("21 a completed done"));
+  EXPECT_THAT(ways_, ElementsAre("0,0;3,4;3,4;7.75,4;0,0"));
+}
+
+TEST_F(DedicatedServiceTest, AWayOfTooManyPointsIsNotBrought) {
+  points_ = 257;
+  EXPECT_THAT(talk({{1s, command("a", "Traverse")}}), Contains("21 a completed done length_m=5.0"));
+  EXPECT_THAT(talk({{1s, command("b", "Follow")}}), Contains(HasSubstr("1 b failed wrong-value")));
+  EXPECT_THAT(ways_, IsEmpty());
+}
+
+TEST_F(DedicatedServiceTest, APathOnAMapThatWasToldTooLongAgoIsNoPath) {
+  EXPECT_THAT(talk({{1s, command("a", "Merge")}}), Contains(HasSubstr("21 a failed map-too-old")));
+  EXPECT_THAT(reasons_,
+              Contains("b: the newest map that was merged is 20.000001 s old, and may be 20.000000 s"));
 }
 
 TEST_F(DedicatedServiceTest, AFailedCallFailsTheCommandWithItsCode) {
@@ -286,40 +287,6 @@ TEST_F(DedicatedServiceTest, RefusesWhatItCannotDo) {
 
 TEST_F(DedicatedServiceTest, ASubsystemThatDiesFailsTheCommand) {
   EXPECT_THAT(talk({{1s, command("a", "Traverse")}}, {"dies"}), Contains("6 a failed owner-lost"));
-}
-
-// What the process before this one commanded is asked after, and ended, before anything new begins.
-TEST_F(DedicatedServiceTest, AfterARestartWhatStillRunsIsEndedFirst) {
-  services::SimRun run({"master", "wheels", "nav", "loco"});
-  run.master.restart_hold_s = 1000;
-  services::Node& master = run.add("master");
-  Wheels wheels(run.add("wheels"), {"for-ever", "done"});
-  services::serve(run.add("nav"), topics::path_request,
-                  [&](const v1::PathRequest&, auto responder) { responder.reply({}); });
-  std::vector<std::string> heard;
-  services::subscribe(master, topics::command_ack, [&](const v1::CommandAck& ack) {
-    heard.push_back(std::to_string(master.now() / 1s) + " " + ack.owner() + " " + ack.activity() + " " +
-                    ack.code());
-  });
-  const auto sender = services::advertise(master, topics::command);
-  const auto states = services::advertise(master, topics::observation);
-  master.at(0s, [&] { stand_at_origin(states); });
-  services::Node& first = run.add("loco");
-  const auto before = make_service(first, settings_);
-  master.at(1s, [&] { sender.write(command("a", "Traverse")); });
-  first.at(10s, [] { throw services::Crash{}; });
-  master.at(10s, [] {});
-  master.at(12s, [&] { sender.write(command("a", "Traverse", v1::COMMAND_QUERY)); });
-  master.at(13s, [&] { sender.write(command("b", "Traverse")); });
-  master.after(100s, [&master] { master.stop(); });
-  run.start();
-  run.wait_for_crash("loco");
-  const auto after = make_service(run.add("loco", 2), settings_);
-  run.run();
-  EXPECT_THAT(heard,
-              ElementsAre("1 loco a ", "1 wheels master/1/a/2 ", "10 wheels master/1/a/2 ",
-                          "10 wheels master/1/a/2 cancelled", "12 loco a owner-restarted", "13 loco b ",
-                          "13 wheels master/1/b/2 ", "33 wheels master/1/b/2 done", "33 loco b done"));
 }
 
 }  // namespace

@@ -148,8 +148,46 @@ TEST(MethodRun, AnErrorThatIsNotRepairedAnyMoreStands) {
   const Step step = run.take(error("no-go"), kRich);
   ASSERT_TRUE(step.end) << "at most two repairs";
   EXPECT_EQ(step.end->error, "no-go");
-  EXPECT_EQ(run.failed("no-go", example().rest), state("hazard-detected", {"w3"}));
-  EXPECT_EQ(run.failed("stalled", example().rest), state("failed"));
+  EXPECT_EQ(run.failed({.error = "no-go"}, example().rest), state("hazard-detected", {"w3"}));
+  EXPECT_EQ(run.failed({.error = "stalled"}, example().rest), state("failed"));
+}
+
+TEST(MethodRun, WhatIsShownAndToldInTheEndMayBeOfOneCallsError) {
+  const Methods methods = methods::read_methods(mission::Entry::parse(R"(
+dedicated:
+  timeline: t
+  subsystem: s
+  methods:
+    go:
+      arguments: [from, to]
+      calls: [{name: a, wait_s: 1}, {name: b, wait_s: 1}]
+      failed: {a.fault: [lost], fault: [weak], "*": [tired]}
+      tells:
+        done: {"way.{from}.{to}": [open]}
+        b.fault: {"way.{from}.{to}": [closed, "{to}"], other: [seen]}
+)",
+                                                                      "m")
+                                                    .at("dedicated"));
+  const methods::Shown rest{"idle", {}};
+  MethodRun first(methods.methods.at("go"), {{"from", "x"}, {"to", "y"}});
+  first.begin();
+  const End at_once = *first.take(error("fault"), {}).end;
+  EXPECT_EQ(first.failed(at_once, rest), state("lost"));
+  EXPECT_TRUE(first.told(at_once).empty());
+
+  MethodRun second(methods.methods.at("go"), {{"from", "x"}, {"to", "y"}});
+  second.begin();
+  second.take({}, {});
+  const End late = *second.take(error("fault"), {}).end;
+  EXPECT_EQ(second.failed(late, rest), state("weak"));
+  EXPECT_EQ(second.told(late), (std::map<std::string, temporal::Value>{{"way.x.y", state("closed", {"y"})},
+                                                                       {"other", state("seen")}}));
+
+  MethodRun third(methods.methods.at("go"), {{"from", "x"}, {"to", "y"}});
+  third.begin();
+  third.take({}, {});
+  EXPECT_EQ(third.told(*third.take({}, {}).end),
+            (std::map<std::string, temporal::Value>{{"way.x.y", state("open")}}));
 }
 
 // The one for a call goes before the one for any.

@@ -66,6 +66,19 @@ TEST(MethodsFile, RefusesWhatCannotBeMeant) {
        "'at_most' must be from 1 to"},
       {"      calls: [" + std::string(kCall) + "]\n      repairs: {z.e: {calls: [{name: b, wait_s: 1}]}}\n",
        "the method has no call 'z' whose error"},
+      {"      calls: [{name: a, path: {planner: p, from: {robot: r}, to: {robot: r}, short_m: -1}}]\n",
+       "mission.yaml:6:87: 'short_m' must lie between 0"},
+      {"      calls: [{name: a, path: {planner: p, from: {robot: r}, to: {robot: r}, short_m: 1e9}}]\n",
+       "'short_m' must lie between 0"},
+      {"      calls: [{name: a, path: {planner: p, from: {robot: r}, to: {robot: r}, map_within_s: 9}}]\n",
+       "mission.yaml:6:92: 'map_within_s' and 'merged'"},
+      {"      calls: [{name: a, path: {planner: p, from: {robot: r}, to: {robot: r}, map_within_s: 9, "
+       "merged: "
+       "b}}]\n",
+       "'b' names no call that has ended by then"},
+      {"      calls: [{name: b, wait_s: 1}, {name: a, path: {planner: p, from: {robot: r}, to: {robot: r}, "
+       "map_within_s: 0, merged: b}}]\n",
+       "'map_within_s' must be a positive time"},
       {"      calls: [{name: a, wait_s: 0}]\n", "'wait_s' must be a positive time"},
       {"      calls: [" + std::string(kCall) + "]\n      results: {x: \"2\"}\n", "one value of one call"},
       {"      calls: [" + std::string(kCall) + "]\n      then: []\n", "a state is written as"},

@@ -51,6 +51,8 @@ class MapExchange : public testing::Test {
                         [this](const v1::MapPatch& patch) { patches_.push_back(patch); });
     services::subscribe(world_, topics::command_ack,
                         [this](const v1::CommandAck& ack) { acks_.push_back(ack); });
+    services::subscribe(world_, topics::known_map,
+                        [this](const v1::KnownMap& map) { known_[map.planner()] = map; });
     services::subscribe(world_, topics::function_offer, [this](const v1::FunctionOffer& offer) {
       versions_[offer.owner()] = offer.model_version();
     });
@@ -87,9 +89,12 @@ class MapExchange : public testing::Test {
     });
   }
   void command(temporal::Duration when, const std::string& owner, const std::string& subsystem,
-               const std::string& name, const std::string& activity) {
+               const std::string& name, const std::string& activity,
+               const std::map<std::string, std::string>& arguments = {},
+               v1::CommandAction action = v1::COMMAND_EXECUTE, std::int64_t latest_end_us = -1) {
     world_.after(when, [=, this] {
       v1::Command out;
+      out.action(action);
       out.commander("exec");
       out.epoch(1);
       out.sender_epoch(1);
@@ -98,10 +103,50 @@ class MapExchange : public testing::Test {
       out.owner(owner);
       out.subsystem(subsystem);
       out.command_name(name);
-      out.latest_end_us(-1);
+      out.latest_end_us(latest_end_us);
+      for (const auto& [key, value] : arguments) {
+        v1::Property one;
+        one.name(key);
+        one.value(value);
+        out.arguments().push_back(one);
+      }
       commands_.write(out);
     });
   }
+  void merge(temporal::Duration when, const std::string& activity,
+             std::map<std::string, std::string> arguments, std::int64_t latest_end_us = -1) {
+    arguments.emplace("author", "scout.path");
+    command(when, "primary.path", "map", "merge", activity, arguments, v1::COMMAND_EXECUTE, latest_end_us);
+  }
+  // The radio between the robots, over which a patch takes so long.
+  void set_light_time(temporal::Duration time) {
+    services::link::Link radio;
+    radio.name = "radio";
+    radio.ends = {"primary", "scout"};
+    radio.light_time = time;
+    run_.links =
+        services::link::LinkTable({radio}, {{"primary.path", "primary"}, {"scout.path", "scout"}}, 1);
+  }
+  // "<s> <activity> <stage> <code>" of each word on a command.
+  std::vector<std::string> words() const {
+    static const std::vector<std::string> stages{"accepted",  "rejected",      "completed", "failed",
+                                                 "cancelled", "cancel-failed", "unknown"};
+    std::vector<std::string> out;
+    for (const v1::CommandAck& ack : acks_) {
+      std::ostringstream line;
+      line << static_cast<double>(ack.header().stamp_us()) / 1e6 << " " << ack.activity() << " "
+           << stages.at(ack.stage()) << (ack.code().empty() ? "" : " ") << ack.code();
+      out.push_back(line.str());
+    }
+    return out;
+  }
+  double result(const std::string& activity, const std::string& name) const {
+    for (const v1::CommandAck& ack : acks_)
+      for (const v1::NamedValue& one : ack.outcome().measured())
+        if (ack.activity() == activity && one.name() == name) return one.held().number();
+    return std::nan("");
+  }
+
   void ask(temporal::Duration when, const std::string& whom) {
     world_.after(when, [=, this] {
       v1::PathRequest request;
@@ -134,6 +179,7 @@ class MapExchange : public testing::Test {
   std::vector<std::string> events_, texts_;
   std::vector<v1::MapPatch> patches_;
   std::vector<v1::CommandAck> acks_;
+  std::map<std::string, v1::KnownMap> known_;
   std::map<std::string, std::uint64_t> versions_;
   std::map<std::string, std::vector<v1::PathReply>> replies_;
 };
@@ -179,6 +225,102 @@ TEST_F(MapExchange, WhoTellsOnRequestKeepsItToItselfUntilThen) {
   EXPECT_EQ(last.outcome().measured()[1].held().number(), 1);
 }
 
+TEST_F(MapExchange, AMergeEndsWhenThePatchIsInTheMap) {
+  set_light_time(5s);
+  start();
+  find(1s, "scout", "scout-soil-1", 20, 20);
+  merge(2s, "a1", {{"version", "2"}});
+  merge(10s, "a2", {{"version", "2"}});
+  merge(11s, "a3", {});
+  ask(12s, "primary.path");
+  run(13s);
+  EXPECT_THAT(words(), ElementsAre("2 a1 accepted", "6 a1 completed", "10 a2 accepted", "10 a2 completed",
+                                   "11 a3 accepted", "11 a3 completed"));
+  EXPECT_EQ(result("a1", "map_version"), 2);
+  EXPECT_EQ(result("a1", "obstacles"), 1);
+  EXPECT_EQ(result("a1", "author_version"), 2);
+  EXPECT_EQ(result("a1", "told_s"), 1);
+  EXPECT_EQ(result("a1", "age_s"), 5);
+  EXPECT_EQ(result("a3", "age_s"), 10);
+  EXPECT_GE(gap(replies_["primary.path"].at(0), 20, 20), 2.8);
+}
+
+TEST_F(MapExchange, AMergeWaitsForTheVersionThatItNames) {
+  start();
+  find(1s, "scout", "scout-soil-1", 20, 20);
+  merge(2s, "a1", {{"version", "3"}});
+  find(7s, "scout", "scout-soil-2", 10, 10);
+  run(9s);
+  EXPECT_THAT(words(), ElementsAre("2 a1 accepted", "7 a1 completed"));
+  EXPECT_EQ(result("a1", "map_version"), 3);
+}
+
+TEST_F(MapExchange, AMergeThatWaitsInVainFailsAtItsLatestEndOrAtItsOwnTime) {
+  start();
+  merge(1s, "a1", {{"version", "2"}}, 5'000'000);
+  merge(2s, "a2", {{"version", "2"}, {"within_s", "4"}}, 9'000'000);
+  merge(3s, "a3", {{"version", "2"}}, 1'000'000);
+  find(20s, "scout", "scout-soil-1", 20, 20);
+  merge(21s, "a4", {{"version", "3"}});
+  run(700s);
+  EXPECT_THAT(words(),
+              ElementsAre("1 a1 accepted", "2 a2 accepted", "3 a3 accepted", "3 a3 failed patch-missing",
+                          "5 a1 failed patch-missing", "6 a2 failed patch-missing", "21 a4 accepted",
+                          "621 a4 failed patch-missing"));
+  EXPECT_THAT(acks_[4].reason(), HasSubstr("no patch of scout.path with version 2 came; it has told none"));
+  EXPECT_THAT(acks_.back().reason(), HasSubstr("version 3 came; the newest that was taken has version 2"));
+}
+
+TEST_F(MapExchange, AMergeOfNobodysMapIsRejectedAtOnce) {
+  start();
+  merge(1s, "a1", {{"author", "stranger"}});
+  merge(2s, "a2", {{"author", "world"}});
+  merge(3s, "a3", {{"author", "primary.path"}});
+  merge(4s, "a4", {{"author", "scout.pth"}});
+  merge(5s, "a5", {{"version", "new"}});
+  merge(6s, "a6", {{"version", "1.5"}});
+  merge(7s, "a7", {{"within_s", "0"}});
+  run(8s);
+  EXPECT_THAT(words(), ElementsAre("1 a1 rejected unknown-author", "2 a2 rejected unknown-author",
+                                   "3 a3 rejected unknown-author", "4 a4 rejected unknown-author",
+                                   "5 a5 rejected bad-arguments", "6 a6 rejected bad-arguments",
+                                   "7 a7 rejected bad-arguments"));
+  EXPECT_THAT(acks_[3].reason(), HasSubstr("did you mean 'scout.path'?"));
+}
+
+TEST_F(MapExchange, AMergeThatWaitsIsCancelledOrStopped) {
+  start();
+  merge(1s, "a1", {{"version", "2"}});
+  merge(1s, "a2", {{"version", "2"}});
+  command(2s, "primary.path", "map", "merge", "a1", {}, v1::COMMAND_CANCEL);
+  command(3s, "primary.path", "map", "stop", "a3");
+  find(4s, "scout", "scout-soil-1", 20, 20);
+  run(5s);
+  EXPECT_THAT(words(), ElementsAre("1 a1 accepted", "1 a2 accepted", "2 a1 cancelled cancelled",
+                                   "3 a2 cancelled stopped", "3 a3 completed done"));
+}
+
+TEST_F(MapExchange, NoMoreMergesWaitThanTheBound) {
+  start();
+  for (int i = 0; i < 65; ++i) merge(1s, "a" + std::to_string(i), {{"version", "2"}});
+  run(2s);
+  EXPECT_THAT(words(), Contains(HasSubstr("rejected busy")).Times(1));
+}
+
+// What one life of the author told is not taken for what another one told.
+TEST_F(MapExchange, AnAuthorThatWasStartedAgainCountsItsVersionsOn) {
+  services::RunSettings settings;
+  settings.mission = folder_;
+  settings.settings = folder_ / "scout.yaml";
+  start({"primary.path"});
+  services_.push_back(make_service(run_.add("scout.path", 2), settings));
+  find(1s, "scout", "scout-soil-1", 20, 20);
+  merge(2s, "a1", {{"version", "2"}});
+  run(3s);
+  EXPECT_EQ(patches_.at(0).map_version(), 1'000'002U);
+  EXPECT_EQ(result("a1", "author_version"), 1'000'002);
+}
+
 TEST_F(MapExchange, OtherCommandsAreRejectedWithTheRemedy) {
   start();
   command(1s, "primary.path", "wheels", "drive", "a1");
@@ -186,7 +328,7 @@ TEST_F(MapExchange, OtherCommandsAreRejectedWithTheRemedy) {
   ASSERT_EQ(acks_.size(), 1U);
   EXPECT_EQ(acks_[0].stage(), v1::STAGE_REJECTED);
   EXPECT_EQ(acks_[0].code(), "unknown-command");
-  EXPECT_THAT(acks_[0].reason(), HasSubstr("has 'map' with the command tell"));
+  EXPECT_THAT(acks_[0].reason(), HasSubstr("has 'map' with the commands tell and merge"));
 }
 
 // The merged map of one robot is what it tells: also what a third has found.
@@ -245,6 +387,35 @@ TEST_F(MapExchange, APatchOfNobodyOffTheMapOrNotFiniteIsRefusedAndNamedAndTheMis
   EXPECT_EQ(replies_["scout.path"].at(0).map_version(), 1U);
 }
 
+// Who watches sees what each robot's map has, when it was told and what was taken; also before anything was found.
+TEST_F(MapExchange, EachShowsWhatItsMapHasAndWhatItToldAndTook) {
+  start();
+  world_.after(500ms, [this] {
+    ASSERT_TRUE(known_.contains("primary.path"));
+    EXPECT_EQ(known_["primary.path"].map_version(), 1U);
+    EXPECT_EQ(known_["primary.path"].told_us(), -1);
+    EXPECT_TRUE(known_["primary.path"].obstacles().empty());
+  });
+  find(1s, "scout", "scout-soil-1", 20, 20);
+  find(2s, "primary", "primary-soil-1", 10, 10, 1);
+  find(3s, "scout", "scout-soil-1", 20, 20);  // nothing new
+  run(4s);
+  const v1::KnownMap &primary = known_["primary.path"], &scout = known_["scout.path"];
+  EXPECT_EQ(primary.header().robot(), "primary");
+  EXPECT_EQ(primary.map_version(), 3U);
+  EXPECT_EQ(primary.obstacles().size(), 2U);
+  EXPECT_EQ(primary.told_us(), -1) << "it tells on request";
+  ASSERT_EQ(primary.taken().size(), 1U);
+  EXPECT_EQ(primary.taken()[0].author(), "scout.path");
+  EXPECT_EQ(primary.taken()[0].map_version(), 2U);
+  EXPECT_EQ(primary.taken()[0].taken_us(), 1'000'000);
+  EXPECT_EQ(scout.map_version(), 2U);
+  ASSERT_EQ(scout.obstacles().size(), 1U) << "the primary has not told of its own";
+  EXPECT_EQ(scout.told_version(), 2U);
+  EXPECT_EQ(scout.told_us(), 1'000'000);
+  EXPECT_TRUE(scout.taken().empty());
+}
+
 TEST_F(MapExchange, WhatItKnowsStandsInTheRunFolder) {
   start();
   find(1s, "scout", "scout-soil-1", 20, 20);
@@ -253,6 +424,7 @@ TEST_F(MapExchange, WhatItKnowsStandsInTheRunFolder) {
     std::ostringstream text;
     text << std::ifstream(folder_ / (name + ".hazards")).rdbuf();
     EXPECT_THAT(text.str(), HasSubstr("scout-soil-1")) << name;
+    EXPECT_THAT(text.str(), HasSubstr("\"kind\": \"soil\"")) << name;
   }
 }
 
@@ -272,6 +444,28 @@ TEST_F(MapExchange, APatchPassesTheLinkBetweenTheRobots) {
   ASSERT_EQ(replies_["primary.path"].size(), 2U);
   EXPECT_EQ(replies_["primary.path"][0].map_version(), 1U) << "it is under way";
   EXPECT_EQ(replies_["primary.path"][1].map_version(), 2U);
+}
+
+// What is told while the radio is away is one patch afterwards, and nothing of the others is missing in it.
+TEST_F(MapExchange, AfterACutTheNewestPatchHoldsAll) {
+  services::link::Link radio;
+  radio.name = "radio";
+  radio.ends = {"primary", "scout"};
+  radio.open = services::link::Schedule({}, {{500ms, 200s}});
+  run_.links = services::link::LinkTable({radio}, {{"primary.path", "primary"}, {"scout.path", "scout"}}, 1);
+  start();
+  find(1s, "scout", "scout-soil-1", 20, 20);
+  find(100s, "scout", "scout-soil-2", 26, 12);
+  ask(199s, "primary.path");
+  ask(201s, "primary.path");
+  run(202s);
+  ASSERT_EQ(replies_["primary.path"].size(), 2U);
+  EXPECT_EQ(replies_["primary.path"][0].map_version(), 1U) << "the radio is away";
+  EXPECT_EQ(replies_["primary.path"][1].map_version(), 2U);
+  std::ostringstream known;
+  known << std::ifstream(folder_ / "primary.path.hazards").rdbuf();
+  EXPECT_THAT(known.str(), HasSubstr("scout-soil-1"));
+  EXPECT_THAT(known.str(), HasSubstr("scout-soil-2"));
 }
 
 TEST_F(MapExchange, OnlyThePlannerOfARobotMayTell) {

@@ -212,6 +212,78 @@ TEST_F(LinkGate, WhatAConsoleSendsComesOverTheLinkOfTheGround) {
   EXPECT_GE(receiver.now(), 3s);
 }
 
+// The world tells each robot of itself; another robot hears that over the radio alone, and it is no word of the ground.
+TEST(LinkGateOfRobots, WhatTheWorldSaysOfARobotComesOverItsRadio) {
+  link::Link radio{"radio", {"scout", "primary"}};
+  radio.light_time = 2s;
+  link::Link uplink{"uplink", {"ground", "primary"}};
+  uplink.light_time = 30s;
+  const std::map<std::string, std::string> robots{
+      {"p", "primary"}, {"s", "scout"}, {"team", ""}, {"world", ""}};
+  SimRun run({"world", "p", "s", "team"});
+  run.robots = robots;
+  run.links = link::LinkTable({radio, uplink}, robots, 1);
+  Node& world = run.add("world");
+  std::map<std::string, std::vector<std::string>> heard;
+  for (const char* name : {"p", "s", "team"}) {
+    Node& node = run.add(name);
+    subscribe(node, topics::observation, [&node, &log = heard[name]](const v1::Observation& seen) {
+      log.push_back(std::to_string(node.now() / 1s) + " " + seen.timeline());
+    });
+  }
+  const auto out = advertise(world, topics::observation);
+  world.at(1s, [&] {
+    for (const char* timeline : {"primary.battery", "scout.battery", "ground.window"})
+      out.write(observation(timeline, 1));
+  });
+  world.at(60s, [&] { world.stop(); });
+  run.run();
+  EXPECT_THAT(heard["p"], ElementsAre("1 primary.battery", "1 ground.window", "3 scout.battery"));
+  EXPECT_THAT(heard["s"], ElementsAre("1 scout.battery", "1 ground.window", "3 primary.battery"));
+  EXPECT_THAT(heard["team"], ElementsAre("1 primary.battery", "1 scout.battery", "1 ground.window"));
+}
+
+// Commands and requests of a robot are read by all of its services, and those for another one take no room on the radio.
+TEST_F(LinkGate, WhatIsForAnotherServiceDoesNotPassTheLink) {
+  link::Link link;
+  link.loss = 1;
+  int heard = 0;
+  fly(link, 5s, [&] {
+    subscribe(b(), topics::command, [&](const v1::Command&) { ++heard; });
+    const auto commands = advertise(a(), topics::command);
+    a().at(1s, [commands] {
+      for (const char* owner : {"b", "c"}) {
+        v1::Command command;
+        command.owner(owner);
+        command.commander("a");
+        command.activity("to " + std::string(owner));
+        commands.write(command);
+      }
+    });
+  });
+  EXPECT_EQ(heard, 1);
+  const auto& lost = b().lost_samples();
+  ASSERT_EQ(lost.size(), 1U);
+  EXPECT_EQ(lost.front().key, "a 0 to b 0");
+}
+
+TEST_F(LinkGate, WhatIsLostIsNamed) {
+  link::Link link;
+  link.open = link::Schedule({}, {{1s, 3s}});
+  fly(link, 5s, [this] {
+    a().at(1500ms, [this] {
+      observations.write(observation("x", 1));
+      events.write(event("nobody hears this"));
+    });
+    a().at(2s, [this] { observations.write(observation("x", 2)); });
+  });
+  const std::vector<link::LostSample> expected{
+      {1500ms, "radio", "roci/event", "", "a", 1, 1, 1, link::Fate::lost},
+      {2s, "radio", "roci/observation", "x", "a", 1, 1, 1, link::Fate::superseded}};
+  EXPECT_EQ(b().lost_samples(), expected);
+  EXPECT_THAT(nodes["c"]->lost_samples(), IsEmpty());
+}
+
 // Thirty seconds of light in a tenth of a second of wall time; nobody waits longer than that.
 TEST(LiveLinkGate, AppliesTheModelOnTheLiveClock) {
   link::Link link;

@@ -38,6 +38,7 @@ TEST(Partitions, TheTopicTableKeepsClockHealthAndEventsForEveryone) {
   EXPECT_EQ(topics::hazard.scope, Scope::team);
   EXPECT_EQ(topics::map_patch.scope, Scope::team);
   EXPECT_EQ(topics::terrain_finding.scope, Scope::robot);
+  EXPECT_EQ(topics::known_map.scope, Scope::robot);
   EXPECT_EQ(topics::command.scope, Scope::robot);
   EXPECT_EQ(topics::call_cancel.scope, topics::plan_request.request.scope);
 }

@@ -110,6 +110,38 @@ TEST(Channel, AStateSampleIsRepeatedUntilItArrivesOrANewerOneComes) {
   EXPECT_EQ(channel.counts().superseded, 1U);
 }
 
+// "number fate@milliseconds" of each.
+std::vector<std::string> texts(const std::vector<Loss>& losses) {
+  std::vector<std::string> out;
+  for (const Loss& loss : losses) {
+    const char* fate = loss.fate == Fate::lost       ? " lost@"
+                       : loss.fate == Fate::repeated ? " repeated@"
+                                                     : " superseded@";
+    out.push_back(std::to_string(loss.passenger.number) + fate + std::to_string(loss.at / 1ms));
+  }
+  return out;
+}
+
+TEST(Channel, WhatDoesNotArriveIsToldByName) {
+  Link link{"l", {"a", "b"}};
+  link.rate_bit_s = 8000;
+  link.open = Schedule({}, {{100ms, 3s}});
+  Channel channel(link, 1);
+  channel.offer(passenger(1, 200), 0ms);
+  channel.offer(passenger(2, 200), 0ms);
+  channel.offer(passenger(3, 200, "x"), 10ms);
+  channel.offer(passenger(4, 200, "y"), 20ms);
+  channel.take(200ms);
+  EXPECT_THAT(texts(channel.take_losses()), ElementsAre("1 lost@100", "2 lost@100"));
+  channel.offer(passenger(5, 200, "x"), 1s);
+  channel.offer(passenger(6), 2s);
+  EXPECT_THAT(texts(channel.take_losses()), ElementsAre("3 superseded@1000", "6 lost@2000"));
+  link.loss = 1;
+  channel.take(3300ms);
+  EXPECT_THAT(texts(channel.take_losses()), ElementsAre("4 repeated@3200", "5 repeated@3400"));
+  EXPECT_THAT(channel.take_losses(), IsEmpty());
+}
+
 // The numbers stand for all machines: a trace is the same on each.
 TEST(Channel, ChanceDependsOnTheSampleAlone) {
   EXPECT_EQ(chance(1, "l", passenger(1), 1), chance(1, "l", passenger(1, 99), 1));
@@ -171,7 +203,8 @@ Case random_case(std::mt19937& random) {
 }
 
 // "topic number at" of all that arrives, with take() called at `stops`, at each sample, and at each next().
-std::vector<std::string> fly(const Case& test, const std::vector<Time>& stops, Counts* counts = nullptr) {
+std::vector<std::string> fly(const Case& test, const std::vector<Time>& stops, Counts* counts = nullptr,
+                             std::vector<Loss>* losses = nullptr) {
   Channel channel(test.link, 3);
   std::vector<std::string> out;
   const auto note = [&out](Time at, const Passenger& one) {
@@ -192,6 +225,7 @@ std::vector<std::string> fly(const Case& test, const std::vector<Time>& stops, C
   }
   take_until(3600s);
   if (counts) *counts = channel.counts();
+  if (losses) *losses = channel.take_losses();
   return out;
 }
 
@@ -211,7 +245,14 @@ TEST(ChannelProperties, EverySampleHasOneFate) {
   for (int round = 0; round < 200; ++round) {
     const Case test = random_case(random);
     Counts counts;
-    const auto arrived = fly(test, {}, &counts);
+    std::vector<Loss> losses;
+    const auto arrived = fly(test, {}, &counts, &losses);
+    const auto of = [&](Fate fate) {
+      return static_cast<std::uint64_t>(std::ranges::count(losses, fate, &Loss::fate));
+    };
+    EXPECT_EQ(of(Fate::lost), counts.lost) << "round " << round;
+    EXPECT_EQ(of(Fate::superseded), counts.superseded) << "round " << round;
+    EXPECT_EQ(of(Fate::repeated), counts.repeated) << "round " << round;
     EXPECT_EQ(counts.offered, test.sent.size());
     EXPECT_EQ(counts.arrived, arrived.size());
     EXPECT_EQ(counts.offered, counts.arrived + counts.lost + counts.superseded) << "round " << round;

