@@ -91,7 +91,7 @@ def read(flight: Flight, folder: Path, journal: str = "journal.sqlite") -> None:
 
 
 def repairs_of(rows: list[tuple[int, str, str]], effects: list[dict]) -> list[Repair]:
-    drives = [one["time_us"] / 1e6 for one in effects if one["robot"] == "scout" and one["kind"] == "drive"]
+    drives = [one["time_us"] / 1e6 for one in effects if one["robot"] == "scout" and one["kind"] == "motion"]
     metres = leg_metres()
     begun, out = {}, []
     for us, kind, text in rows:
