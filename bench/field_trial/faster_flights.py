@@ -91,7 +91,7 @@ def read(flight: Flight, folder: Path, journal: str = "journal.sqlite") -> None:
 
 
 def repairs_of(rows: list[tuple[int, str, str]], effects: list[dict]) -> list[Repair]:
-    drives = [one["time_us"] / 1e6 for one in effects if one["robot"] == "scout" and one["kind"] == "drive"]
+    drives = [one["time_us"] / 1e6 for one in effects if one["robot"] == "scout" and one["kind"] == "motion"]
     metres = leg_metres()
     begun, out = {}, []
     for us, kind, text in rows:
@@ -155,9 +155,10 @@ def entries_into(circles: list[tuple[float, float, float, float]], trace: list[t
             if bt <= since:
                 continue
             steps = max(1, math.ceil(math.hypot(bx - ax, by - ay) / STEP_M))
-            inside = any(math.hypot(ax + (bx - ax) * i / steps - x, ay + (by - ay) * i / steps - y) < radius for i in range(1, steps + 1))
-            out += inside and not was_in
-            was_in = inside
+            for i in range(1, steps + 1):
+                inside = math.hypot(ax + (bx - ax) * i / steps - x, ay + (by - ay) * i / steps - y) < radius
+                out += inside and not was_in
+                was_in = inside
     return out
 
 

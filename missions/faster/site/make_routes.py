@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes yard.yaml: from each stand every way to the target over the graph of way-points that passes no junction twice.
+"""Writes yard.yaml: from each stand the shortest ways to the target over the graph of way-points.
 With --check it writes nothing, and ends with 1 where the file is another one."""
 import math
 import pathlib
@@ -9,7 +9,7 @@ import sys
 FOLDER = pathlib.Path(__file__).resolve().parent.parent
 FILE = FOLDER / "yard.yaml"
 TARGET = "w9"
-LONGEST_M = 60
+SHORTEST = 2
 # Between the junctions w0, w3, w5, n5 and w9; names of routes are made of these.
 STRETCHES = {
     "gate": "w0 w1 w2 w3",
@@ -32,8 +32,9 @@ HEAD = """\
 #              v1 … v6 south of the gate        w4 … w8 south of the big rock
 #   f1 … f11 along the south edge
 #
-# A route begins on one stretch between two junctions, in one direction, and passes no junction twice; so wherever a traverse ends early,
-# there is every way on and every way back. Of routes that are open the first in the list is taken: the shortest. Written by site/make_routes.py.
+# A route begins on one stretch between two junctions, in one direction, and passes no junction twice: the two shortest, and the shortest along
+# the edge. So wherever a traverse ends early, there are ways on and ways back. Of routes that are open the first in the list is taken: the
+# shortest. Written by site/make_routes.py.
 format: 1
 """
 
@@ -66,16 +67,18 @@ def text():
 
     routes = []  # metres, name, stands, how many of them a traverse may begin at
     for name, way in stretches:
+        some = []
         for names, more in ways_on(stretches, way[-1], {way[-1]}):
-            whole = way[:-1] + more
-            if bare(name) in map(bare, names) or (way[0] in more and way[0] != TARGET):
-                # Back over the stretch itself it does not lead; over the junction that it comes from it may, for who stands between.
-                whole = way[1:-1] + more if bare(name) not in map(bare, names) else []
-            if way[0] == TARGET:
-                whole = way[1:-1] + more if bare(name) not in map(bare, names) else []
-            length = sum(metres[leg] for leg in legs_of(whole))
-            if whole and len(set(whole)) == len(whole) and length <= LONGEST_M:
-                routes.append((length, "_".join([name, *names]), whole, len(whole) - len(more)))
+            if bare(name) in map(bare, names):
+                continue
+            # Who stands between two junctions may come back to the one behind on another way; from the target nobody sets out.
+            begin = way[1:-1] if way[0] in more else way[:-1]
+            length = sum(metres[leg] for leg in legs_of(begin + more))
+            if begin:
+                some.append((length, "_".join([name, *names]), begin + more, len(begin)))
+        some.sort()
+        along_edge = [one for one in some if "edge" in one[1]]
+        routes += some[:SHORTEST] + [one for one in along_edge[:1] if one not in some[:SHORTEST]]
     routes.sort()
 
     def rows(lines, width=9):
