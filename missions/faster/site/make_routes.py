@@ -89,6 +89,8 @@ def text():
     out += rows(", ".join(f"[{name}, {a}, {b}]" for a, b in legs_of(way)) for _, name, way, _ in routes)
     out += "  # A traverse may begin on the first stretch of a route.\n  starts_at:\n    rows:\n      "
     out += rows(", ".join(f"[{name}, {one}]" for one in way[:count]) for _, name, way, count in routes)
+    out += "  passes:\n    rows:\n      "
+    out += rows(", ".join(f"[{name}, {one}]" for one in way) for _, name, way, _ in routes)
     out += "numbers:\n  metres:\n    symmetric: true\n    rows:\n      "
     return out + rows(", ".join(f"[{a}, {b}, {metres[a, b]:.2f}]" for a, b in legs_of(way)) for _, way in there)
 
