@@ -41,9 +41,10 @@ struct Codec {
   const std::string& (*run)(const void* value) = nullptr;          ///< null for types that name no run
   const std::string& (*sender)(const void* value) = nullptr;  ///< The service that says it, by its own word.
   transport::Payload (*key)(const void* value) = nullptr;     ///< Empty for types without a key.
-  std::string (*key_words)(const void* value) =
-      nullptr;  ///< The key for people; empty for types without one.
-  std::string (*addressee)(const void* value) = nullptr;  ///< The service that it is for; empty: everyone.
+  /// The key for people; empty for types without one.
+  std::string (*key_words)(const void* value) = nullptr;
+  /// The service that it is for; empty: everyone.
+  std::string (*addressee)(const void* value) = nullptr;
   /// In bytes as on the wire, but without the run's name, so that it is the same in every run. Null for types
   /// without a header.
   std::size_t (*size)(const void* value) = nullptr;
