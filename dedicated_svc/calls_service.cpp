@@ -143,7 +143,7 @@ services::commander::Call Calls::sent_as(const methods::CommandCall& call) const
 services::commander::CommandClient::OnEnd Calls::on_command_end() {
   return [this](const Word& word) {
     Answer result = answer_of(word);
-    if (timed_out_ && word.stage == Stage::cancelled)
+    if (timed_out_ && (word.stage == Stage::cancelled || word.stage == Stage::unknown))
       result.error = "call-timeout", result.reason = "it took longer than it may";
     answer(std::move(result));
   };

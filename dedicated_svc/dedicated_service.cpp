@@ -9,6 +9,7 @@
 #include "core/words/nearest_word.hpp"
 #include "dedicated_svc/calls_service.hpp"
 #include "dedicated_svc/methods/methods_file.hpp"
+#include "dedicated_svc/methods/sole_owner.hpp"
 #include "services/node/make_event.hpp"
 #include "services/owner/command_server.hpp"
 #include "services/publisher.hpp"
@@ -317,6 +318,7 @@ std::unique_ptr<services::Service> make_watched_service(services::Node& node,
                                                         const services::RunSettings& settings,
                                                         std::function<void()> around_write) {
   const mission::Entry root = mission::load_mission_file(settings.mission_file());
+  methods::check_sole_owner(root.at("dedicated"), settings.mission, node.options().name);
   return std::make_unique<DedicatedService>(node, methods::read_methods(root.at("dedicated")),
                                             read_spots(root), settings.run_folder, std::move(around_write));
 }

@@ -55,6 +55,14 @@ TEST_P(Convoy, ARepairIsInvisibleAbove) {
 
 TEST_P(Convoy, WhatCannotBeRepairedGoesUp) { expect_as_listed("escalated"); }
 
+// R149, and trial_stopped of the paper: the running step is stopped by its own executive, both rovers rest, and the plan is launched
+// again without the primary's last step, until the ground lets the robots plan anew.
+TEST_P(Convoy, TheGroundStopsThePlanAndLaunchesItAgain) {
+  expect_as_listed("trial_stopped");
+  EXPECT_THAT(deeds_of(folder_), ElementsAre("drive w1", "press w1", "drive w1", "drive w2", "drive w2",
+                                             "press w2", "drive w2"));
+}
+
 INSTANTIATE_TEST_SUITE_P(Transports, Convoy, ::testing::Values("inproc", "fastdds", "cyclonedds", "mixed"),
                          [](const auto& dds) { return std::string(dds.param); });
 
@@ -80,6 +88,21 @@ TEST_F(ConvoyReport, ThePlanThatBrokeIsToldAsItWasExecuted) {
   EXPECT_THAT(scouted.value("cause", ""), HasSubstr("press: fault"));
   EXPECT_TRUE(scouted["values"].contains("duration_s")) << scouted;
   EXPECT_FALSE(plan["activities"][1].contains("started_s"));
+}
+
+// What was stopped comes back, too.
+TEST_F(ConvoyReport, ThePlanThatWasStoppedIsToldAsItWasExecuted) {
+  const Ended ended =
+      run(ROCI_SOURCE_DIR "/tests/scenario/executed_plan.sh \"$(dirname \"$(command -v roci-launch)\")\" " +
+          std::string(kMission) + " cyclonedds " + folder_.string() + " --scenario trial_stopped --speed 30");
+  const json plan = json::parse(ended.output, nullptr, false);
+  ASSERT_TRUE(plan.is_object()) << ended.output;
+  EXPECT_EQ(plan["outcome"], "cancelled");
+  ASSERT_EQ(plan["activities"].size(), 4U);
+  EXPECT_EQ(plan["activities"][1]["state"], "succeeded");
+  EXPECT_EQ(plan["activities"][2]["state"], "cancelled") << "the scout's second stretch";
+  EXPECT_EQ(plan["activities"][2]["ended_s"], 190);
+  EXPECT_FALSE(plan["activities"][3].contains("started_s"));
 }
 
 class ConvoyKills : public ::testing::TestWithParam<const char*> {
