@@ -15,6 +15,8 @@ namespace {
 
 using ::testing::Contains;
 using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::Not;
 
 PlanBuilder one(const std::function<void(PlanActivity&)>& with, const std::string& owner = "sim") {
   PlanBuilder b;
