@@ -63,6 +63,7 @@ void RunningPlan::step(Time now, const ReactorInputs& inputs) {
   told.epoch = epoch_;
   told.acks = inputs.acks;
   for (const PeerLoss& loss : inputs.losses) told.lost_owners.push_back(loss.service);
+  if (state_->mission->executive.owner_return > temporal::Duration(0)) told.found_owners = inputs.arrivals;
   told.answers = std::exchange(answers_, {});
   Outputs done = executive_.step(now, told);
   answer_results_ = std::move(done.answers);
