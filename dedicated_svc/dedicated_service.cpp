@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/mission/mission_file.hpp"
+#include "core/mission/service_list.hpp"
 #include "core/words/nearest_word.hpp"
 #include "dedicated_svc/calls_service.hpp"
 #include "dedicated_svc/methods/methods_file.hpp"
@@ -33,6 +34,28 @@ Spots read_spots(const mission::Entry& root) {
     spots[object.at("name").text()] = {x->number(), y->number(), properties->number_or("heading", 0)};
   }
   return spots;
+}
+
+// Whoever shows a timeline is the one owner of its subsystem. A file of another one that cannot be read is told by that one.
+void expect_one_owner(const mission::Entry& section, const std::string& own_name,
+                      const std::filesystem::path& mission_folder) {
+  const mission::Entry timeline = section.at("timeline");
+  const mission::ServiceList list = mission::load_service_list_if_any(mission_folder);
+  for (const mission::ServiceEntry* other : list.of_program("dedicated_svc")) {
+    if (other->name == own_name) continue;
+    std::string place;
+    try {
+      const auto shown = mission::load_mission_file(other->settings).at("dedicated").at("timeline");
+      if (shown.text() == timeline.text()) place = shown.place();
+    } catch (const mission::FileError&) {
+      continue;
+    }
+    if (!place.empty())
+      timeline.fail(
+          "the timeline '" + timeline.text() + "' of " + own_name + " is that of " + other->name + ", too (" +
+          place +
+          "): a subsystem has one owner; give each a timeline of its own, or drop one from 'services'");
+  }
 }
 
 class DedicatedService final : public services::Service, private owner::Driver {
@@ -117,7 +140,8 @@ class DedicatedService final : public services::Service, private owner::Driver {
   void finish_early(const method_run::Answer& answer) {
     owner::Word word = *under_way_->broken_off;
     word.results.values = answer.values;
-    end(under_way_->run.failed({.error = word.code.empty() ? "stopped" : word.code}, methods_.rest), std::move(word));
+    end(under_way_->run.failed({.error = word.code.empty() ? "stopped" : word.code}, methods_.rest),
+        std::move(word));
   }
 
   void finish(const method_run::End& result) {
@@ -178,6 +202,7 @@ class DedicatedService final : public services::Service, private owner::Driver {
 
 std::unique_ptr<services::Service> make_service(services::Node& node, const services::RunSettings& settings) {
   const mission::Entry root = mission::load_mission_file(settings.mission_file());
+  expect_one_owner(root.at("dedicated"), node.options().name, settings.mission);
   return std::make_unique<DedicatedService>(node, methods::read_methods(root.at("dedicated")),
                                             read_spots(root), settings.run_folder);
 }

@@ -7,7 +7,7 @@
 namespace roci::dedicated {
 
 /// Makes a dedicated executive with the methods of its mission file (README.md). Throws mission::FileError when they
-/// cannot be read, std::system_error when its ledger cannot be opened.
+/// cannot be read or another dedicated executive of the mission's list shows the same timeline, std::system_error when its ledger cannot be opened.
 std::unique_ptr<services::Service> make_service(services::Node& node, const services::RunSettings& settings);
 
 }  // namespace roci::dedicated

@@ -17,7 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
-using ::testing::Contains, ::testing::ElementsAre, ::testing::HasSubstr, ::testing::StartsWith;
+using ::testing::AllOf, ::testing::Contains, ::testing::ElementsAre, ::testing::HasSubstr,
+    ::testing::StartsWith;
 
 constexpr char kMission[] = ROCI_SOURCE_DIR "/tests/missions/convoy";
 
@@ -78,6 +79,22 @@ TEST_F(ConvoyReport, ThePlanThatBrokeIsToldAsItWasExecuted) {
   EXPECT_THAT(scouted.value("cause", ""), HasSubstr("press: fault"));
   EXPECT_TRUE(scouted["values"].contains("duration_s")) << scouted;
   EXPECT_FALSE(plan["activities"][1].contains("started_s"));
+}
+
+// Two owners of one subsystem are refused before anything flies: by file and line, each with the name of the other.
+TEST_F(ConvoyReport, TwoDedicatedExecutivesOfOneTimelineDoNotStart) {
+  const fs::path mission = folder_ / "convoy";
+  fs::create_directories(folder_);
+  fs::copy(kMission, mission, fs::copy_options::recursive);
+  edit(mission / "mission.yaml", "settings: primary.yaml", "settings: scout.yaml");
+  for (const char* dds : {"inproc", "cyclonedds"}) {
+    const Ended ended = run("timeout 60 roci-launch " + mission.string() + " --headless --speed max --dds " +
+                            dds + " --run-folder " + (folder_ / dds).string() + " 2>&1");
+    EXPECT_EQ(ended.exit_code, 2) << ended.output;
+    EXPECT_THAT(ended.output,
+                AllOf(HasSubstr("scout.yaml:5:"), HasSubstr("the timeline 'scout.locomotion' of"),
+                      HasSubstr("a subsystem has one owner")));
+  }
 }
 
 class ConvoyKills : public ::testing::TestWithParam<const char*> {
