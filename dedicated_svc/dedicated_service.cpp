@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/mission/mission_file.hpp"
+#include "core/mission/service_list.hpp"
 #include "core/words/nearest_word.hpp"
 #include "dedicated_svc/calls_service.hpp"
 #include "dedicated_svc/methods/methods_file.hpp"

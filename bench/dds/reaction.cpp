@@ -161,8 +161,9 @@ class DedicatedPort : public Port {
 // the command for the next one is the answer.
 class RobotPort : public Port {
  public:
-  RobotPort(const std::string& vendor, PortOptions options)
-      : on_ball_(std::move(options.on_ball)),
+  RobotPort(const std::string& vendor, PortOptions options, const std::string& commander)
+      : commander_(commander),
+        on_ball_(std::move(options.on_ball)),
         robot_(open_node("sim_svc", vendor, options.domain)),
         planner_(open_node("planner_svc", vendor, options.domain)),
         goals_(services::advertise(*robot_, topics::goal)),
@@ -230,8 +231,8 @@ class RobotPort : public Port {
   }
 
   void take(const v1::Command& command) {
-    if (command.owner() != "sim_svc" || command.command_name() != "image" ||
-        command.action() != v1::COMMAND_EXECUTE)
+    if (command.owner() != "sim_svc" || command.commander() != commander_ ||
+        command.command_name() != "image" || command.action() != v1::COMMAND_EXECUTE)
       return;
     running_ = command;
     observe("rover.camera", temporal::state("imaging"));
@@ -242,6 +243,7 @@ class RobotPort : public Port {
     if (answers_a_ball) on_ball_(ball);
   }
 
+  const std::string commander_;  // whose commands alone count
   const std::function<void(const Ball&)> on_ball_;
   std::unique_ptr<services::Node> robot_, planner_;
   services::Publisher<v1::Goal> goals_;
@@ -257,12 +259,12 @@ class RobotPort : public Port {
 
 std::unique_ptr<Port> open_reaction(const std::string& vendor, PortOptions options) {
   if (options.side == Side::server) return std::make_unique<ExecutivePort>(vendor, options, false);
-  return std::make_unique<RobotPort>(vendor, std::move(options));
+  return std::make_unique<RobotPort>(vendor, std::move(options), "exec_svc");
 }
 
 std::unique_ptr<Port> open_dedicated_reaction(const std::string& vendor, PortOptions options) {
   if (options.side == Side::server) return std::make_unique<ExecutivePort>(vendor, options, true);
-  return std::make_unique<RobotPort>(vendor, std::move(options));
+  return std::make_unique<RobotPort>(vendor, std::move(options), kDedicated);
 }
 
 std::unique_ptr<Port> open_dedicated(const std::string& vendor, const PortOptions& options) {

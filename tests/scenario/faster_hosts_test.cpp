@@ -23,18 +23,18 @@ using ::testing::AllOf, ::testing::Contains, ::testing::HasSubstr, ::testing::No
 
 constexpr char kMission[] = ROCI_SOURCE_DIR "/missions/faster";
 
-class FasterHosts : public ::testing::TestWithParam<const char*> {
+class FasterHosts : public ::testing::Test {
  protected:
   FasterHosts() { fs::create_directories(folder_ / "hosts"); }
   ~FasterHosts() override { fs::remove_all(folder_); }
 
   // The steps of faster_hosts.sh; none where namespaces are not permitted.
-  std::map<std::string, Step> fly_apart(const std::string& mission, const std::string& clock,
-                                        const std::string& cut = "") const {
+  std::map<std::string, Step> fly_apart(const std::string& dds, const std::string& mission,
+                                        const std::string& clock, const std::string& more = "") const {
     const services::process::DomainClaim domain;
     const Ended ended =
-        run(ROCI_SOURCE_DIR "/tests/scenario/faster_hosts.sh ${PATH%%:*} " + mission + " " + GetParam() +
-            " " + std::to_string(domain.id()) + " " + (folder_ / "hosts").string() + " " + clock + " " + cut);
+        run(ROCI_SOURCE_DIR "/tests/scenario/faster_hosts.sh ${PATH%%:*} " + mission + " " + dds + " " +
+            std::to_string(domain.id()) + " " + (folder_ / "hosts").string() + " " + clock + " " + more);
     if (ended.exit_code == 77) return {};
     return steps_of(ended.output);
   }
@@ -64,7 +64,32 @@ class FasterHosts : public ::testing::TestWithParam<const char*> {
   const fs::path folder_ = fs::temp_directory_path() / ("roci_faster_hosts_" + std::to_string(::getpid()));
 };
 
+class FasterHostsOf : public FasterHosts, public ::testing::WithParamInterface<const char*> {};
+
+std::string trace_of_one_host() {
+  static const std::string trace =
+      fly(kMission, "inproc", 1, "--scenario trial").summary.value("trace_sha256", "none");
+  return trace;
+}
+
 #ifdef ROCI_CUT
+
+// A rover without its vendor's transport is refused before it says a word; when it has it, the mission begins. A second dedicated executive of one name is
+// refused in flight, which goes on as if nobody had tried.
+TEST_F(FasterHosts, RefuseAMissingVendorAndASecondOfOneName) {
+  auto steps = fly_apart("mixed", kMission, "simulated 200", "refused");
+  if (steps.empty()) GTEST_SKIP() << "this user cannot make network namespaces (ip netns add)";
+  EXPECT_EQ(steps["bare"].exit_code, 3);
+  EXPECT_THAT(
+      text_of(folder_ / "hosts/bare.said"),
+      AllOf(HasSubstr("unknown DDS transport \"cyclonedds\"; installed: fastdds"), HasSubstr("--dds")));
+  EXPECT_EQ(steps["second"].exit_code, 2);
+  EXPECT_THAT(text_of(folder_ / "hosts/second.said"),
+              HasSubstr("run \"faster\" has a scout.locomotion already; end it"));
+  expect_arrived(steps["primary"]);
+  expect_nothing_done_twice();
+  EXPECT_EQ(steps["primary"].printed.value("trace_sha256", ""), trace_of_one_host());
+}
 
 // The mission with its last communication sooner: an hour's wait is no part of this.
 fs::path sooner(const fs::path& folder) {
@@ -76,8 +101,8 @@ fs::path sooner(const fs::path& folder) {
 
 // For five minutes, while the scout drives, it and the executive do not hear each other. It ends its drive, the plan breaks, and when the link is back
 // the two go on by a new plan.
-TEST_P(FasterHosts, GoOnAfterMinutesApart) {
-  auto steps = fly_apart(sooner(folder_ / "faster").string(), "live 20", "w3 300");
+TEST_P(FasterHostsOf, GoOnAfterMinutesApart) {
+  auto steps = fly_apart(GetParam(), sooner(folder_ / "faster").string(), "live 20", "w3 300");
   if (steps.empty()) GTEST_SKIP() << "this user cannot make network namespaces (ip netns add)";
   EXPECT_EQ(steps["heard"].exit_code, 0) << "the ground hears the flight";
   expect_arrived(steps["primary"]);
@@ -89,10 +114,10 @@ TEST_P(FasterHosts, GoOnAfterMinutesApart) {
 }
 
 // Apart for longer than the executive waits for a scout that drove: it says what is missing, and the run ends with both goals open.
-TEST_P(FasterHosts, EndAsStatedWhenApartForLonger) {
+TEST_P(FasterHostsOf, EndAsStatedWhenApartForLonger) {
   const fs::path mission = sooner(folder_ / "faster");
   edit(mission / "mission.yaml", "fallback_timeout_s: 600", "fallback_timeout_s: 60");
-  auto steps = fly_apart(mission.string(), "live 20", "w3 1000");
+  auto steps = fly_apart(GetParam(), mission.string(), "live 20", "w3 1000");
   if (steps.empty()) GTEST_SKIP() << "this user cannot make network namespaces (ip netns add)";
   EXPECT_EQ(steps["primary"].exit_code, 1);
   EXPECT_EQ(steps["primary"].printed.value("result", ""), "failed") << steps["primary"].printed;
@@ -104,8 +129,8 @@ TEST_P(FasterHosts, EndAsStatedWhenApartForLonger) {
 
 #else
 
-TEST_P(FasterHosts, FlyAsOneHostDoes) {
-  auto steps = fly_apart(kMission, "simulated max");
+TEST_P(FasterHostsOf, FlyAsOneHostDoes) {
+  auto steps = fly_apart(GetParam(), kMission, "simulated max");
   if (steps.empty()) GTEST_SKIP() << "this user cannot make network namespaces (ip netns add)";
   EXPECT_EQ(steps["heard"].exit_code, 0) << "the ground hears the flight";
   expect_arrived(steps["primary"]);
@@ -113,14 +138,12 @@ TEST_P(FasterHosts, FlyAsOneHostDoes) {
   EXPECT_EQ(steps["ground"].printed["expected"].value("fault", "no report"), "");
   for (const char* host : {"ground", "primary", "scout"})
     EXPECT_EQ(steps[host].exit_code, 0) << host << " " << steps[host].printed;
-  static const std::string reference =
-      fly(kMission, "inproc", 1, "--scenario trial").summary.value("trace_sha256", "none");
-  EXPECT_EQ(steps["primary"].printed.value("trace_sha256", ""), reference);
+  EXPECT_EQ(steps["primary"].printed.value("trace_sha256", ""), trace_of_one_host());
 }
 
 #endif
 
-INSTANTIATE_TEST_SUITE_P(Vendors, FasterHosts, ::testing::Values("fastdds", "cyclonedds", "mixed"),
+INSTANTIATE_TEST_SUITE_P(Vendors, FasterHostsOf, ::testing::Values("fastdds", "cyclonedds", "mixed"),
                          [](const auto& dds) { return std::string(dds.param); });
 
 }  // namespace
