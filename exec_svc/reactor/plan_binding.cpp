@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "core/temporal/activity_timeline.hpp"
 #include "exec_svc/mission/template_text.hpp"
 
 namespace roci::exec::reactor {
@@ -60,16 +61,30 @@ Renaming rename_activities(temporal::FlexiblePlan& plan) {
   return renamed;
 }
 
+// Conditions that ask how another activity went.
+void rename_in(Condition& condition, const Renaming& renamed) {
+  for (ConditionNode& node : condition.nodes) {
+    const auto found = renamed.find(temporal::activity_of(node.timeline));
+    if (found != renamed.end()) node.timeline = temporal::activity_timeline(found->second);
+  }
+}
+
 // Decisions of one plan and the next have different ids, too.
 void rename_references(temporal::FlexiblePlan& plan, const Renaming& renamed) {
   const auto rename = [&](std::string& id) {
     if (const auto found = renamed.find(id); found != renamed.end()) id = found->second;
   };
-  for (PlanActivity& activity : plan.activities) rename(activity.parent);
+  for (PlanActivity& activity : plan.activities) {
+    rename(activity.parent);
+    for (Condition* condition : {&activity.pre, &activity.maintenance, &activity.post, &activity.skip_if})
+      rename_in(*condition, renamed);
+  }
   for (temporal::DecisionPoint& decision : plan.decisions) {
     decision.id = "p" + std::to_string(plan.version) + "." + decision.id;
-    for (temporal::DecisionChoice& choice : decision.choices)
+    for (temporal::DecisionChoice& choice : decision.choices) {
       for (std::string& activity : choice.activities) rename(activity);
+      rename_in(choice.rule, renamed);
+    }
     for (temporal::ArgumentBinding& binding : decision.bindings) rename(binding.activity);
   }
 }

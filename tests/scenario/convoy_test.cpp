@@ -61,6 +61,16 @@ TEST_P(Convoy, TheGroundStopsThePlanAndLaunchesItAgain) {
                                              "press w2", "drive w2"));
 }
 
+// Level E2 (R128).
+TEST_P(Convoy, APlanOfFixedTimesBreaksWhereAStepLastsLonger) { expect_as_listed("e2"); }
+
+// Level E1 (R128): two rovers at a time, each with one commander.
+TEST_P(Convoy, TheGroundCommandsSingleDecisions) {
+  expect_as_listed("commanded");
+  EXPECT_THAT(deeds_of(folder_),
+              ElementsAre("drive w1", "press w1", "drive w1", "drive w2", "press w2", "drive w2"));
+}
+
 INSTANTIATE_TEST_SUITE_P(Transports, Convoy, ::testing::Values("inproc", "fastdds", "cyclonedds", "mixed"),
                          [](const auto& dds) { return std::string(dds.param); });
 
@@ -101,6 +111,23 @@ TEST_F(ConvoyReport, ThePlanThatWasStoppedIsToldAsItWasExecuted) {
   EXPECT_EQ(plan["activities"][2]["state"], "cancelled") << "the scout's second stretch";
   EXPECT_EQ(plan["activities"][2]["ended_s"], 190);
   EXPECT_FALSE(plan["activities"][3].contains("started_s"));
+}
+
+// E1: the console waits for what became of its command.
+TEST_F(ConvoyReport, ACommandOfTheConsoleIsAnsweredWithWhatItBrought) {
+  const Ended ended =
+      run(ROCI_SOURCE_DIR "/tests/scenario/single_command.sh \"$(dirname \"$(command -v roci-launch)\")\" " +
+          std::string(kMission) + " fastdds " + folder_.string() + " scout Scout from=w0 to=w1");
+  std::vector<std::string> lines;
+  std::istringstream text(ended.output);
+  for (std::string line; std::getline(text, line);) lines.push_back(line);
+  ASSERT_GE(lines.size(), 3U) << ended.output;
+  EXPECT_EQ(lines.back(), "0");
+  const json result = json::parse(lines[lines.size() - 2], nullptr, false);
+  ASSERT_TRUE(result.is_object()) << ended.output;
+  EXPECT_EQ(result["id"], "p1.1-Scout");
+  EXPECT_EQ(result["state"], "succeeded");
+  EXPECT_TRUE(result.contains("energy_j")) << result;
 }
 
 class ConvoyKills : public ::testing::TestWithParam<const char*> {

@@ -7,8 +7,6 @@
 
 #include <algorithm>
 
-#include "sim_svc/components/standard_types.hpp"
-#include "sim_svc/scenario/run_file.hpp"
 #include "tests/scenario/true_way.hpp"
 
 namespace roci::scenario {
@@ -19,7 +17,7 @@ using testing::HasSubstr;
 using testing::Not;
 
 constexpr int kMostNoGo = 12;  // after which a flight gives up
-constexpr terrain::Point kStart{5, 15}, kTarget{20, 15};
+constexpr terrain::Point kStart = kYardStart, kTarget = kYardTarget;
 
 // As the paper has it: the way is the primary's, the scout drives it first, from way-point to way-point. After a No-Go the
 // scout's map is told, and there is another way. Where the scout came through, the primary follows.
@@ -208,14 +206,10 @@ TEST(YardSenses, ThePrimarySeesTheScoutBeforeItAndNotBesideIt) {
 #endif
 
 sim::world::Ground true_ground(const std::string& scenario = "nominal", std::uint64_t seed = 1) {
-  sim::world::Ground ground =
-      sim::scenario::load_run(ROCI_SOURCE_DIR "/missions/faster", scenario, sim::components::standard_types())
-          .world.ground;
-  sim::world::scatter(ground.surface.soil, seed);
-  return ground;
+  return true_ground(ROCI_SOURCE_DIR "/missions/faster", scenario, seed);
 }
 
-const TrueLimits kPrimary{0.8, 15, 0.1, {2354, 6, 0.1, 0.3}};
+const TrueLimits kPrimary = kYardPrimary;
 
 #ifdef ROCI_ALL_TRANSPORTS
 constexpr std::uint64_t kSeeds = 200;

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/temporal/activity_timeline.hpp"
 #include "exec_svc/problem/problem_writer.hpp"
 #include "exec_svc/reactor/reactor.hpp"
 
@@ -251,6 +252,48 @@ TEST_F(TimelineReactor, WhatThePlanBringsAboutUnobservedIsToldAndKept) {
   observed.observations = {{"errand", state("bored")}};
   restored.step(seconds(70), observed);
   EXPECT_THAT(restored.concluded(), IsEmpty()) << "who observes it knows better";
+}
+
+// Plans that are not PDDL reach the executive as the engine made them.
+TEST_F(TimelineReactor, ConditionsLevelsAndChoicesStayAsTheEngineMadeThem) {
+  const std::uint64_t call = asked();
+  temporal::FlexiblePlan plan = bore();
+  plan.activities[0].level = "primitive";
+  plan.activities[0].parent = "errand";
+  plan.activities[0].post = temporal::compare("mole.drill", temporal::ConditionOp::eq, state("in", {"h-a"}));
+  plan.activities[0].maintenance =
+      temporal::negate(temporal::compare("mole.lamp", temporal::ConditionOp::eq, state("on")));
+  temporal::PlanActivity errand;
+  errand.id = "errand";
+  errand.level = "abstract";
+  errand.start_point = plan.point_count++;
+  errand.end_point = plan.point_count++;
+  temporal::PlanActivity other = plan.activities[0];
+  other.id = "instead";
+  other.start_point = plan.point_count++;
+  other.end_point = plan.point_count++;
+  const temporal::Condition failed =
+      temporal::compare(temporal::activity_timeline("first"), temporal::ConditionOp::eq, state("failed"));
+  other.pre = temporal::any_of({failed, plan.activities[0].maintenance});
+  other.skip_if = temporal::negate(failed);
+  plan.activities.push_back(errand);
+  plan.activities.push_back(other);
+  plan.decisions = {{"way", "", {{"one", {"first"}, {}}, {"two", {"instead"}, failed}}, 1}};
+  plan.decisions[0].resolver_kind = temporal::ResolverKind::rule;
+  answer(call, plan);
+  const temporal::FlexiblePlan& taken = reactor.plan();
+  ASSERT_EQ(taken.activities.size(), 3U);
+  EXPECT_EQ(taken.activities[0].level, "primitive");
+  EXPECT_EQ(taken.activities[0].parent, taken.activities[1].id);
+  EXPECT_EQ(taken.activities[0].post, plan.activities[0].post);
+  EXPECT_EQ(taken.activities[0].maintenance, plan.activities[0].maintenance);
+  temporal::Condition renamed = temporal::compare(temporal::activity_timeline(taken.activities[0].id),
+                                                  temporal::ConditionOp::eq, state("failed"));
+  EXPECT_EQ(taken.activities[2].pre, temporal::any_of({renamed, plan.activities[0].maintenance}));
+  EXPECT_EQ(taken.activities[2].skip_if, temporal::negate(renamed));
+  ASSERT_EQ(taken.decisions.size(), 1U);
+  EXPECT_THAT(taken.decisions[0].choices[1].activities, ElementsAre(taken.activities[2].id));
+  EXPECT_EQ(taken.decisions[0].choices[1].rule, renamed);
 }
 
 TEST_F(TimelineReactor, APlanForStrangersIsRefusedInWords) {
