@@ -140,7 +140,8 @@ TEST_F(FasterTrial, WithoutAPathTheGroundIsTold) {
 
 constexpr const char* kScenarios[] = {"trial",         "trial_stopped",   "fixed_times", "marker_not_seen",
                                       "scout_no_path", "primary_blocked", "scout_lost",  "no_path",
-                                      "goal_change",   "repair_overrun",  "radio_loss",  "radio_cut"};
+                                      "goal_change",   "repair_overrun",  "radio_loss",  "radio_cut",
+                                      "opportunity"};
 #ifdef ROCI_ALL_TRANSPORTS
 constexpr const char* kTransports[] = {"inproc", "fastdds", "cyclonedds", "mixed"};
 #else

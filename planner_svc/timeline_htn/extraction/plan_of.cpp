@@ -213,9 +213,7 @@ class Extraction {
     out.command_name = command.name;
     out.answer_within = command.answer_within;
     for (const model::Argument& argument : command.arguments)
-      out.arguments.push_back(
-          {argument.name, argument.term ? model_.objects[model::object_of(*argument.term, state.objects)].name
-                                        : argument.text});
+      out.arguments.push_back({argument.name, model::text_of(model_, argument, state.objects)});
   }
 
   // What others must be seen in at the start and all the while; what is seen of its own timeline in the end.

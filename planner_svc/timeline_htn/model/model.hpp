@@ -108,6 +108,7 @@ struct Argument {
   std::string name;
   std::string text;          ///< without a term: the value as it is
   std::optional<Term> term;  ///< the name of what stands for it
+  std::string property;      ///< of that object, which the executive knows; empty: the object's name itself
   friend bool operator==(const Argument&, const Argument&) = default;
 };
 

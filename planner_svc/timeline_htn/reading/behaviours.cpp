@@ -235,12 +235,27 @@ class BehaviourReader {
       decision.variable = static_cast<Index>(variable - scope_.variables.begin());
       decision.over = over.has_value();
       if (over) decision.subgoals = subgoals_of(entry);
+      if (binds) refuse_property_of(*decision.variable, *binds);
     } else {
       for (const auto& [choice, value] : fields(*choices, model::kMostInList))
         decision.choices.push_back(read_choice(choice, value));
       if (decision.choices.size() < 2) choices->fail("there is nothing to decide; name two choices or more");
     }
     out_.decisions.push_back(std::move(decision));
+  }
+
+  // An answer binds names of objects alone.
+  void refuse_property_of(Index variable, const Entry& binds) const {
+    for (const model::Subgoal& subgoal : out_.subgoals) {
+      const model::State& state =
+          vocabulary_.model.components[subgoal.state.component].states[subgoal.state.state];
+      if (!state.command) continue;
+      for (const model::Argument& argument : state.command->arguments)
+        if (argument.term && !argument.property.empty() &&
+            subgoal.state.terms[argument.term->index] == model::Term{variable, false})
+          binds.fail("'" + argument.text + "' of the command " + state.command->name +
+                     " is a property of what stays open; let the command have the object itself");
+    }
   }
 
   std::vector<Index> subgoals_of(const Entry& entry) {

@@ -107,6 +107,23 @@ TEST(TimelineMission, ProblemsHoldStatePredictionsGoalsAndObjects) {
   EXPECT_EQ(problem.objects[1].name, "hole-1");
 }
 
+// The engine could not say in which state the drill is, had it not heard of the hole that the state names.
+TEST(TimelineMission, AnObjectOutlivesItsGoalWhileAStateNamesIt) {
+  TimelineMissionFile file;
+  const MissionModel mission = file.read();
+  beliefs::Beliefs beliefs(mission);
+  goals::GoalSet goals(mission);
+  for (const char* id : {"a", "b", "c"}) goals.submit(hole(id), seconds(0));
+  goals.set_state({"ground", "a"}, goals::GoalState::achieved, "");
+  goals.set_state({"ground", "b"}, goals::GoalState::achieved, "");
+  beliefs.observe("mole.drill", state("in", {"h-b"}));
+  const Problem problem =
+      write_problem(mission, beliefs, goals, "mine-1", seconds(60), seconds(60), problem::Reserves::kept, {});
+  std::vector<std::string> names;
+  for (const auto& object : problem.objects) names.push_back(object.name);
+  EXPECT_THAT(names, ElementsAre("h-b", "h-c", "hole-1"));
+}
+
 class TimelineReactor : public ::testing::Test {
  protected:
   ReactorInputs standing() {
@@ -174,6 +191,29 @@ TEST_F(TimelineReactor, FliesAPlanThatCommandsItself) {
   deep.observations = {{"mole.depth", 3.0}};
   reactor.step(seconds(66), deep);
   EXPECT_EQ(reactor.goals().find({"ground", "a"})->state, goals::GoalState::achieved);
+}
+
+TEST_F(TimelineReactor, ACommandGetsWhatItsObjectHas) {
+  ReactorInputs in = standing();
+  in.goals = {hole("a")};
+  const std::uint64_t call = reactor.step(seconds(0), in).call->id;
+  temporal::FlexiblePlan plan = bore();
+  plan.activities[0].arguments = {
+      {"hole", "h-a"}, {"depth", "hole-1.depth"}, {"gear", "2.5"}, {"of", "nobody.depth"}};
+  answer(call, plan);
+  const ReactorOutputs out = reactor.step(seconds(5), {});
+  ASSERT_EQ(out.commands.size(), 1U);
+  EXPECT_THAT(out.commands[0].arguments,
+              ElementsAre(temporal::Property{"hole", "h-a"}, temporal::Property{"depth", "0"},
+                          temporal::Property{"gear", "2.5"}, temporal::Property{"of", "nobody.depth"}));
+}
+
+TEST_F(TimelineReactor, APropertyThatAnObjectHasNotIsNamed) {
+  const std::uint64_t call = asked();
+  temporal::FlexiblePlan plan = bore();
+  plan.activities[0].arguments = {{"x", "h-a.x"}};
+  EXPECT_THAT(texts(answer(call, plan).events),
+              HasSubstr("p1.1-bore needs h-a.x for its command, and the object has no such property"));
 }
 
 // R135: a state of the abstract layer that the plan has brought about is told, and outlives the process.
