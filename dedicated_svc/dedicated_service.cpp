@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "core/mission/mission_file.hpp"
-#include "core/mission/service_list.hpp"
 #include "core/words/nearest_word.hpp"
 #include "dedicated_svc/calls_service.hpp"
 #include "dedicated_svc/methods/methods_file.hpp"
