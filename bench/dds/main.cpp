@@ -33,9 +33,9 @@ using services::contract::ChildProcess;
 
 const std::vector<std::string> kVendors = {"fastdds", "cyclonedds"};
 // The kinds are bare (the vendor's API), ours (writer and reader of our transport), call (services/rpc.hpp on
-// top of it), tuples (1,000 argument tuples in one request of ours) and reaction (from an observation to the
-// executive's command). With --secure there are secure and secure_tuples, too: ours and tuples, encrypted.
-const std::vector<std::string> kKinds = {"bare", "ours", "call", "tuples", "reaction"};
+// top of it), tuples (1,000 argument tuples in one request of ours), reaction (from an observation to the
+// executive's command) and dedicated (the same through a dedicated executive). With --secure there are secure and secure_tuples, too: ours and tuples, encrypted.
+const std::vector<std::string> kKinds = {"bare", "ours", "call", "tuples", "reaction", "dedicated"};
 const std::vector<std::string> kSecureKinds = {"secure", "secure_tuples"};
 std::vector<std::string> all_kinds() {
   auto kinds = kKinds;
@@ -54,6 +54,8 @@ std::unique_ptr<Port> open(const std::string& variant, PortOptions options) {
   if (kind == "ours") return open_ours(vendor, std::move(options));
   if (kind == "call") return open_calls(vendor, std::move(options));
   if (kind == "reaction") return open_reaction(vendor, std::move(options));
+  if (kind == "dedicated") return open_dedicated_reaction(vendor, std::move(options));
+  if (kind == kDedicatedKind) return open_dedicated(vendor, options);
   if (kind == "tuples") return open_ours_with_tuples(vendor, std::move(options));
   throw std::invalid_argument("unknown variant " + variant);
 }
@@ -276,11 +278,19 @@ nlohmann::json measure(const std::string& program, const BenchOptions& options) 
   for (const auto& vendor : vendors) {
     if (!rallies.contains("bare-" + vendor)) continue;
     const double bare = record["results"]["bare-" + vendor]["median_us"];
-    for (const std::string kind : {"ours", "secure", "call", "reaction"}) {
+    for (const std::string kind : {"ours", "secure", "call", "reaction", "dedicated"}) {
       if (!rallies.contains(kind + "-" + vendor)) continue;
       const double median = record["results"][kind + "-" + vendor]["median_us"];
       record["ratio_to_bare"][kind + "-" + vendor] = median / bare;
     }
+  }
+  for (const auto& vendor : vendors) {
+    if (!rallies.contains("reaction-" + vendor) || !rallies.contains("dedicated-" + vendor)) continue;
+    const auto& direct = record["results"]["reaction-" + vendor];
+    const auto& dedicated = record["results"]["dedicated-" + vendor];
+    for (const std::string figure : {"median_us", "p99_us"})
+      record["ratio_dedicated_to_direct"][vendor][figure] =
+          dedicated[figure].get<double>() / direct[figure].get<double>();
   }
   return record;
 }
@@ -297,7 +307,7 @@ int main(int argc, char** argv) {
   app.add_option("--pings", options.pings, "round trips per turn")->check(CLI::PositiveNumber);
   app.add_option("--seed", options.seed, "of the numbers in the samples");
   app.add_option("--kinds", options.kinds,
-                 "these alone: bare, ours, call, tuples, reaction, secure, secure_tuples")
+                 "these alone: bare, ours, call, tuples, reaction, dedicated, secure, secure_tuples")
       ->delimiter(',')
       ->check(CLI::IsMember(roci::bench::all_kinds()));
   app.add_option("--vendors", options.vendors, "these alone")

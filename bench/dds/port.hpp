@@ -53,4 +53,12 @@ std::unique_ptr<Port> open_calls(const std::string& vendor, PortOptions);
 // the journal's write to disk are included.
 std::unique_ptr<Port> open_reaction(const std::string& vendor, PortOptions);
 
+/// Is the kind of which a server is the dedicated executive of open_dedicated_reaction() alone.
+inline constexpr char kDedicatedKind[] = "imager";
+
+// The same with a dedicated executive, in a process of its own, between exec_svc and the robot: what completes goes
+// up through it and the next command down. The second function opens that process's end.
+std::unique_ptr<Port> open_dedicated_reaction(const std::string& vendor, PortOptions);
+std::unique_ptr<Port> open_dedicated(const std::string& vendor, const PortOptions&);
+
 }  // namespace roci::bench

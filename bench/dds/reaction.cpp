@@ -1,17 +1,25 @@
-// This port measures the executive between an observation and the command that waited for it: exec_svc runs
-// as it is, live, with its journal; the client plays the robot and the planner.
+// These ports measure the executive between an observation and the command that waited for it: exec_svc runs
+// as it is, live, with its journal; the client plays the robot and the planner. Of a dedicated executive
+// (R145), in a process of its own, the same: the robot's word goes up through it, and the command down.
 #include <unistd.h>
 
 #include <atomic>
+#include <cstdlib>
 #include <filesystem>
+#include <fstream>
+#include <optional>
+#include <sstream>
+#include <stdexcept>
 #include <thread>
 
 #include "bench/dds/port.hpp"
+#include "dedicated_svc/dedicated_service.hpp"
 #include "exec_svc/exec_service.hpp"
 #include "services/publisher.hpp"
 #include "services/rpc.hpp"
 #include "services/transport/plug_ins.hpp"
 #include "services/wire/plan_wire.hpp"
+#include "tests/contract/support/child_process.hpp"
 #include "tests/unit/exec_svc/planetary_fixture.hpp"
 
 namespace roci::bench {
@@ -30,6 +38,33 @@ std::unique_ptr<services::Node> open_node(const std::string& name, const std::st
   options.vendor = vendor;
   return std::make_unique<services::Node>(
       options, services::transport::open_transport(vendor, {.domain = domain, .participant = name}));
+}
+
+constexpr char kDedicated[] = "imager";                    // takes the executive's commands for the camera
+constexpr char kMissionVariable[] = "ROCI_BENCH_MISSION";  // tells the child where its mission stands
+
+// The planetary mission, whose camera is commanded through a dedicated executive.
+fs::path mission_with_imager(const fs::path& folder) {
+  const fs::path mission = folder / "mission";
+  fs::copy(ROCI_SOURCE_DIR "/missions/planetary", mission, fs::copy_options::recursive);
+  std::stringstream text;
+  text << std::ifstream(mission / "mission.yaml").rdbuf();
+  std::string yaml = text.str();
+  const auto replace = [&yaml](const std::string& old, const std::string& by) {
+    const auto at = yaml.find(old);
+    if (at == std::string::npos) throw std::runtime_error("missions/planetary has no '" + old + "'");
+    yaml.replace(at, old.size(), by);
+  };
+  replace("services:\n", std::string("services:\n  - {name: ") + kDedicated +
+                             ", program: dedicated_svc, robot: rover, settings: imager.yaml}\n");
+  replace("take-image: {owner: sim_svc,", std::string("take-image: {owner: ") + kDedicated + ",");
+  std::ofstream(mission / "mission.yaml") << yaml;
+  std::ofstream(mission / "imager.yaml")
+      << "format: 1\nname: planetary\ndedicated:\n  timeline: rover.imager\n  subsystem: camera\n"
+         "  rest: [ready]\n  methods:\n    image:\n      arguments: [image]\n      calls:\n"
+         "        - {name: image, command: {owner: sim_svc, robot: rover, subsystem: camera, name: image, "
+         "arguments: {image: \"{image}\"}}}\n";
+  return mission;
 }
 
 // Returns images one after the other; each waits for the camera to be observed idle after the one before.
@@ -58,13 +93,22 @@ temporal::FlexiblePlan chain_of_images() {
 
 class ExecutivePort : public Port {
  public:
-  ExecutivePort(const std::string& vendor, const PortOptions& options)
+  ExecutivePort(const std::string& vendor, const PortOptions& options, bool dedicated)
       : folder_(fs::temp_directory_path() / ("rocinante-bench-" + std::to_string(getpid()))),
         node_(open_node("exec_svc", vendor, options.domain)) {
     fs::create_directories(folder_);
     services::RunSettings settings;
-    settings.mission = ROCI_SOURCE_DIR "/missions/planetary";
+    settings.mission =
+        dedicated ? mission_with_imager(folder_) : fs::path(ROCI_SOURCE_DIR "/missions/planetary");
     settings.run_folder = folder_;
+    if (dedicated) {
+      dedicated_.emplace(
+          std::vector<std::string>{fs::read_symlink("/proc/self/exe").string(), "--serve",
+                                   std::string(kDedicatedKind) + "-" + vendor, "--domain",
+                                   std::to_string(options.domain)},
+          std::vector<std::string>{std::string(kMissionVariable) + "=" + settings.mission.string()});
+      if (!dedicated_->wait_for("ready")) throw std::runtime_error("the dedicated executive does not start");
+    }
     service_ = exec::make_service(*node_, settings);
     loop_ = std::jthread([this] { node_->run(); });
   }
@@ -79,6 +123,35 @@ class ExecutivePort : public Port {
 
  private:
   const fs::path folder_;
+  std::optional<services::contract::ChildProcess> dedicated_;
+  std::unique_ptr<services::Node> node_;
+  std::unique_ptr<services::Service> service_;
+  std::jthread loop_;
+};
+
+// Keeps its ledger and its record in the executive's folder, as in a run.
+class DedicatedPort : public Port {
+ public:
+  DedicatedPort(const std::string& vendor, const PortOptions& options)
+      : node_(open_node(kDedicated, vendor, options.domain)) {
+    const char* mission = std::getenv(kMissionVariable);
+    if (mission == nullptr) throw std::runtime_error("it is started by the executive's port");
+    services::RunSettings settings;
+    settings.mission = mission;
+    settings.settings = settings.mission / "imager.yaml";
+    settings.run_folder = settings.mission.parent_path();
+    service_ = dedicated::make_service(*node_, settings);
+    loop_ = std::jthread([this] { node_->run(); });
+  }
+  ~DedicatedPort() override {
+    node_->stop();
+    loop_.join();
+    service_.reset();
+  }
+  bool send(const Ball&) override { return false; }
+  bool matched() const override { return true; }
+
+ private:
   std::unique_ptr<services::Node> node_;
   std::unique_ptr<services::Service> service_;
   std::jthread loop_;
@@ -88,8 +161,9 @@ class ExecutivePort : public Port {
 // the command for the next one is the answer.
 class RobotPort : public Port {
  public:
-  RobotPort(const std::string& vendor, PortOptions options)
-      : on_ball_(std::move(options.on_ball)),
+  RobotPort(const std::string& vendor, PortOptions options, const std::string& commander)
+      : commander_(commander),
+        on_ball_(std::move(options.on_ball)),
         robot_(open_node("sim_svc", vendor, options.domain)),
         planner_(open_node("planner_svc", vendor, options.domain)),
         goals_(services::advertise(*robot_, topics::goal)),
@@ -157,7 +231,9 @@ class RobotPort : public Port {
   }
 
   void take(const v1::Command& command) {
-    if (command.command_name() != "image" || command.action() != v1::COMMAND_EXECUTE) return;
+    if (command.owner() != "sim_svc" || command.commander() != commander_ ||
+        command.command_name() != "image" || command.action() != v1::COMMAND_EXECUTE)
+      return;
     running_ = command;
     observe("rover.camera", temporal::state("imaging"));
     answer(v1::STAGE_ACCEPTED);
@@ -167,6 +243,7 @@ class RobotPort : public Port {
     if (answers_a_ball) on_ball_(ball);
   }
 
+  const std::string commander_;  // whose commands alone count
   const std::function<void(const Ball&)> on_ball_;
   std::unique_ptr<services::Node> robot_, planner_;
   services::Publisher<v1::Goal> goals_;
@@ -181,8 +258,17 @@ class RobotPort : public Port {
 }  // namespace
 
 std::unique_ptr<Port> open_reaction(const std::string& vendor, PortOptions options) {
-  if (options.side == Side::server) return std::make_unique<ExecutivePort>(vendor, options);
-  return std::make_unique<RobotPort>(vendor, std::move(options));
+  if (options.side == Side::server) return std::make_unique<ExecutivePort>(vendor, options, false);
+  return std::make_unique<RobotPort>(vendor, std::move(options), "exec_svc");
+}
+
+std::unique_ptr<Port> open_dedicated_reaction(const std::string& vendor, PortOptions options) {
+  if (options.side == Side::server) return std::make_unique<ExecutivePort>(vendor, options, true);
+  return std::make_unique<RobotPort>(vendor, std::move(options), kDedicated);
+}
+
+std::unique_ptr<Port> open_dedicated(const std::string& vendor, const PortOptions& options) {
+  return std::make_unique<DedicatedPort>(vendor, options);
 }
 
 }  // namespace roci::bench

@@ -127,10 +127,21 @@ void DecisionPoints::skip_others(const DecisionPoint& decision, const std::strin
   std::set<std::string> wanted, unwanted;
   for (const DecisionChoice& choice : decision.choices)
     (choice.name == chosen ? wanted : unwanted).insert(choice.activities.begin(), choice.activities.end());
+  const std::string reason = "decision " + decision.id + ": " + chosen;
+  const bool as_planned = decision.choices.empty() || decision.choices.front().name == chosen;
   for (const std::string& id : unwanted) {
     const Index activity = state_->index_of.at(id);
-    if (!wanted.contains(id) && state_->runs[activity].phase == ActivityPhase::waiting)
-      state_->skip(activity, "decision " + decision.id + ": " + chosen);
+    if (wanted.contains(id) || state_->runs[activity].phase != ActivityPhase::waiting) continue;
+    state_->skip(activity, reason);
+    if (!as_planned) mark_incomplete(activity, reason);
+  }
+}
+
+// The plan reckons with the first choice: after another one what all that was for is not reached.
+void DecisionPoints::mark_incomplete(Index activity, const std::string& reason) {
+  for (auto above = state_->index_of.find(state_->plan.activities[activity].parent);
+       above != state_->index_of.end() && state_->incomplete.emplace(above->second, reason).second;
+       above = state_->index_of.find(state_->plan.activities[above->second].parent)) {
   }
 }
 

@@ -48,6 +48,7 @@ class DecisionPoints {
   bool resolve_by_rule(std::size_t decision, temporal::Time now);
   AnswerResult fault_of(std::size_t decision, const DecisionAnswer& answer, temporal::Time now) const;
   void settle(std::size_t decision, const std::string& chosen, const std::string& by, temporal::Time now);
+  void mark_incomplete(Index activity, const std::string& reason);
   void skip_others(const temporal::DecisionPoint& decision, const std::string& chosen);
   void tell(std::size_t decision);
   std::string resolver_of(const temporal::DecisionPoint& decision) const;

@@ -88,6 +88,12 @@ bool Dispatch::try_internal_end(Index activity, Time now) {
   const PlanActivity& planned = state_->plan.activities[activity];
   const ActivityRun& run = state_->runs[activity];
   if (run.phase != ActivityPhase::running && run.phase != ActivityPhase::settling) return false;
+  const auto incomplete = state_->incomplete.find(activity);
+  if (incomplete != state_->incomplete.end()) {
+    if (!state_->points.try_happen(planned.end_point, now)) return false;
+    state_->close(activity, now, ActivityState::cancelled, incomplete->second);
+    return true;
+  }
   if (evaluate(planned.post, state_->lookup()) != Truth::yes) {
     if (run.phase == ActivityPhase::running) state_->enter(activity, ActivityPhase::settling, now);
     return false;

@@ -45,6 +45,8 @@ struct RunState {
   PointDispatcher points;
   std::vector<ActivityRun> runs;
   std::unordered_map<std::string, Index> index_of;
+  /// Activities of which a decision has left parts out, and which one: they end without what they were for.
+  std::unordered_map<Index, std::string> incomplete;
   std::unordered_map<Index, std::vector<temporal::Property>> bound;  ///< arguments that decisions have bound
   std::set<Index> active;                                            ///< started and not ended
   std::size_t unfinished;                                            ///< activities that are not done

@@ -9,12 +9,12 @@ namespace roci::services::contract {
 
 namespace fs = std::filesystem;
 
-KeyRing::KeyRing() {
+KeyRing::KeyRing(const std::string& mission) {
   std::string made = fs::temp_directory_path() / "roci_keys_XXXXXX";
   if (mkdtemp(made.data()) == nullptr) throw std::runtime_error("cannot make " + made);
   folder_ = made;
   auto authority = security::Authority::make(path(), now_s());
-  authority.learn(mission::load_service_list(ROCI_SOURCE_DIR "/missions/planetary"));
+  authority.learn(mission::load_service_list(mission));
   authority.issue_missing(365, now_s());
 }
 

@@ -1,4 +1,4 @@
-// A key folder for a test, with the certificates of the planetary mission, made by the library behind roci-keys.
+// A key folder for a test, with the certificates of a mission (the planetary one where none is named), made by the library behind roci-keys.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@ namespace roci::services::contract {
 class KeyRing {
  public:
   /// A folder of this process's own, which goes with this object.
-  KeyRing();
+  explicit KeyRing(const std::string& mission = ROCI_SOURCE_DIR "/missions/planetary");
   ~KeyRing();
   KeyRing(const KeyRing&) = delete;
   KeyRing& operator=(const KeyRing&) = delete;

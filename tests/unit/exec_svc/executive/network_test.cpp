@@ -157,6 +157,21 @@ TEST(Decisions, AreAskedForWhenTheirActivitiesCouldStartAndSkipTheRest) {
   EXPECT_EQ(world.executive.ignored_answers(), 3U);
 }
 
+// R131: a plan reckons with its first choice. After another one the parents of what is left out end without having come to their end.
+TEST(Decisions, AnotherChoiceThanPlannedEndsWhatItWasForUnfulfilled) {
+  for (const auto& [choice, end] : {std::pair{"by-left", "succeeded"}, std::pair{"by-right", "cancelled"}}) {
+    PlanBuilder b = route_plan();
+    b.activity("trip", "", 0).duration_upper = temporal::no_bound;
+    b.between(b.start("trip"), b.start("look"), 0, 0);
+    b.between(b.end("home"), b.end("trip"), 0, 0);
+    for (auto& activity : b.plan.activities)
+      if (activity.id == "left") activity.parent = "trip";
+    ScriptedWorld world(b.plan);
+    world.at(18, {.answers = {{"route", choice}}});
+    EXPECT_THAT(world.run(), Contains(HasSubstr(std::string("trip ") + end))) << choice;
+  }
+}
+
 TEST(Decisions, WithoutAnAnswerInTimeThePlanIsBroken) {
   PlanBuilder b = route_plan();
   b.window(b.plan.decisions[0].decide_before, 0, 60);

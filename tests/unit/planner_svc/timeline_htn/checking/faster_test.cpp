@@ -159,6 +159,40 @@ TEST(FasterModel, ATraverseAsATeamNeedsFormationAndTheUplink) {
   EXPECT_NE(planned("scout_locomotion", "at"), search::Outcome::solved);
 }
 
+// R128, E5: a target comes with the request for it; where it lies is for the executive to say.
+TEST(FasterModel, AFindIsInspectedBeforeTheTeamGoesOn) {
+  model::Model model = load("missions/faster/problem.yaml");
+  const auto index = [](const auto& list, const auto& name, auto member) {
+    return static_cast<Index>(std::ranges::find(list, name, member) - list.begin());
+  };
+  const Index science = index(model.components, "science", &model::Component::name);
+  const Index inspected = index(model.components[science].states, "inspected", &model::State::name);
+  model.objects.push_back({"odd", index(model.types, "target", std::identity{})});
+  model.problem->goals.push_back(
+      {"find",
+       {science, inspected, {{static_cast<Index>(model.objects.size() - 1), true}}},
+       {},
+       temporal::no_bound,
+       {}});
+  const FlexiblePlan plan = plan_for(model);
+  EXPECT_THAT(faults(model, plan), IsEmpty());
+  const auto first = [&](const std::string& beginning) {
+    return *std::ranges::find_if(plan.activities,
+                                 [&](const auto& activity) { return activity.name.starts_with(beginning); });
+  };
+  const PlanActivity imaging = first("primary_path.imaging(odd)");
+  EXPECT_THAT(imaging.arguments,
+              testing::ElementsAre(temporal::Property{"target", "odd"}, temporal::Property{"x", "odd.x"},
+                                   temporal::Property{"y", "odd.y"}));
+  const temporal::NetworkDistances network(plan.point_count, all_constraints(plan));
+  EXPECT_TRUE(network.consistent());
+  for (const char* after : {"primary_path.localising", "primary_locomotion.turning"})
+    EXPECT_TRUE(network.implies(imaging.end_point, first(after).start_point, temporal::Duration{0},
+                                temporal::no_bound))
+        << after;
+  EXPECT_EQ(count(plan, "navigation.team_cycle("), 9U);
+}
+
 // R140: way-points form a graph, neighbours at most 4 m apart.
 TEST(FasterModel, WayPointsLieAtMostFourMetresApart) {
   const model::Model model = load("missions/faster/problem.yaml");

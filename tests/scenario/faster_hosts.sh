@@ -1,0 +1,88 @@
+#!/usr/bin/env bash
+# Flies the two rovers on three hosts: the ground with world and planner, the primary with the executive, and the scout.
+#   faster_hosts.sh BIN_FOLDER MISSION DDS DOMAIN FOLDER CLOCK SPEED [CUT_AT CUT_S|refused]
+# DDS mixed: the rovers are on different vendors. The hosts are network namespaces of their own, on a bridge in a fourth; they speak to the hosts
+# of the run alone (--peers), and no packet leaves them. Needs root.
+# CUT_AT CUT_S: as soon as the scout drives to way-point CUT_AT the link between the rovers is down, for CUT_S seconds of mission time; both hear the ground.
+# refused: the scout is first started without its vendor's transport, and in flight the ground starts a scout.locomotion of its own; what their launchers say
+# stands in FOLDER/bare.said and FOLDER/second.said, and the steps bare and second come with their exit codes.
+# Each host has its run folder in FOLDER, which must be there. Prints "step<TAB>exit code<TAB>output" for the steps heard and, with a cut, cut and healed (mission
+# time in s, as the ground is told), then ground, primary and scout (their launchers' summaries).
+set -uo pipefail
+bin=$1 mission=$2 dds=$3 domain=$4 folder=$5 clock=$6 speed=$7 cut_at=${8:-} cut_s=${9:-0}
+net=roci-net-$$
+declare -A address=([ground]=10.81.0.1 [primary]=10.81.0.2 [scout]=10.81.0.3)
+declare -A services=(
+  [ground]=sim_svc,planner_svc
+  [primary]=exec_svc,communications,primary.path,primary.path_planning,primary.locomotion
+  [scout]=scout.path,scout.path_planning,scout.locomotion
+)
+trap 'kill $(jobs -p) 2>/dev/null; wait; for host in net ground primary scout; do ip netns del roci-$host-$$; done' EXIT
+
+ip netns add $net 2>/dev/null || exit 77
+set -e
+ip -n $net link add name switch type bridge
+ip -n $net link set switch up
+for host in ground primary scout; do
+  ip netns add roci-$host-$$
+  ip link add name eth netns roci-$host-$$ type veth peer name $host netns $net
+  ip -n roci-$host-$$ addr add ${address[$host]}/24 dev eth
+  ip -n roci-$host-$$ link set lo up
+  ip -n roci-$host-$$ link set eth up
+  ip -n $net link set $host master switch up
+done
+set +e
+
+network=(--domain "$domain" --peers "${address[ground]},${address[primary]},${address[scout]}")
+vendor() {  # host
+  [[ $dds == mixed && $1 != primary ]] && echo cyclonedds || echo "${dds/mixed/fastdds}"
+}
+launch() {  # host services name; in a subshell, whose place it takes
+  exec ip netns exec roci-$1-$$ timeout 250 "$bin/roci-launch" "$mission" --dds "$(vendor $1)" "${network[@]}" --address ${address[$1]} \
+    --services $2 --scenario trial --headless --json --clock "$clock" --speed "$speed" --run-folder "$folder/$3" >"$folder/$3.summary"
+}
+refused() {  # name host services bin: what its launcher says before it ends
+  (bin=$4 && launch $2 $3 $1) 2>"$folder/$1.said"
+  printf '%s\t%s\tnull\n' $1 $?
+}
+roci() {  # arguments…: on the ground's host
+  ip netns exec roci-ground-$$ timeout 100 "$bin/roci" --dds "$(vendor ground)" "${network[@]}" --address ${address[ground]} "$@" --json
+}
+part() { for port in primary scout; do bridge -n $net link set dev $port isolated $1; done; }  # on|off
+now() { roci status | tail -n 1 | grep -o '"time_s":[0-9]*' | head -n 1 | cut -d: -f2; }        # mission time
+driving() { grep -qs "\"commander\":\"scout.locomotion\".*\"object\":\"$cut_at\"" "$folder/ground/effects.jsonl"; }
+flying() { kill -0 $ground 2>/dev/null; }
+
+if [[ $cut_at == refused ]]; then
+  mkdir -p "$folder/without/bin" "$folder/without/lib/rocinante"
+  cp "$bin"/{roci-launch,dedicated_svc,pathplan_svc} "$folder/without/bin"
+  cp "$bin"/../lib/rocinante/*"$(vendor primary)"* "$folder/without/lib/rocinante"
+  refused bare scout ${services[scout]} "$folder/without/bin"
+fi
+roci events --count 1 >"$folder/heard" &
+heard=$!
+for host in ground primary scout; do
+  launch $host ${services[$host]} $host &
+  declare $host=$!
+done
+wait $heard
+printf 'heard\t%s\t%s\n' $? "$(tail -n 1 "$folder/heard")"
+if [[ $cut_at == refused ]]; then
+  refused second ground scout.locomotion "$bin"
+elif [[ -n $cut_at ]]; then
+  while flying && ! driving; do sleep 0.1; done
+  part on
+  begun=$(now)
+  printf 'cut\t0\t%s\n' "${begun:-null}"
+  while flying && time=$(now) && [[ ${time:-0} -lt $((begun + cut_s)) ]]; do :; done
+  part off
+  printf 'healed\t0\t%s\n' "${time:-null}"
+fi
+if [[ $clock == live ]]; then  # whoever lives on does not end with the world
+  while flying; do sleep 0.1; done
+  kill -TERM $primary $scout
+fi
+for host in ground primary scout; do
+  wait ${!host}
+  printf '%s\t%s\t%s\n' $host $? "$(tail -n 1 "$folder/$host.summary")"
+done
