@@ -109,6 +109,7 @@ def repairs_of(rows: list[tuple[int, str, str]], effects: list[dict]) -> list[Re
         limit = metres.get((leg[1], leg[2]), 0) / 0.0125 + 300 if leg else 0  # as in domain.yaml
         after = [one for one in drives if one >= at] if leg else []
         end = begun.get(activity, at) + limit
+        error = error if "-" in error else "path-invalid"  # which is told by its reason alone
         out.append(Repair(error, at, min(after) - at if after and min(after) <= end else None, end - at if leg else 0))
     return out
 

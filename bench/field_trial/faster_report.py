@@ -43,7 +43,7 @@ def arrivals(records: list) -> str:
 def write(records: list, target: Path) -> None:
     flights = [one.flight for one in records]
     repairs = [repair for one in flights for repair in one.repairs]
-    drives = [one for one in repairs if one.used_s is not None and one.allowed_s > 0]
+    drives = [one for one in repairs if one.cause == "no-go" and one.used_s is not None]
     first, last = flights[0].seed, flights[-1].seed
     text = f"""# Field trial: two rovers over hidden traps
 
