@@ -102,32 +102,65 @@ Calls::Calls(services::Node& node, CallRecord& record, Spots objects)
   });
 }
 
-void Calls::begin(const method_run::Ask& ask, const services::owner::Request& above, OnAnswer on_answer) {
+std::string Calls::activity_of(const services::owner::Request& above, std::uint32_t number) {
+  return above.key.commander + "/" + std::to_string(above.key.issued_epoch) + "/" + above.key.activity + "/" +
+         std::to_string(number);
+}
+
+void Calls::set(const method_run::Ask& ask, const services::owner::Request& above, temporal::Time begun,
+                OnAnswer on_answer) {
   call_ = ask.call;
   above_ = above;
-  // Unique over the commanders from above and their epochs, and the same whenever this command is carried out again.
-  activity_ = above.key.commander + "/" + std::to_string(above.key.issued_epoch) + "/" + above.key.activity +
-              "/" + std::to_string(ask.number);
+  activity_ = activity_of(above, ask.number);
   on_answer_ = std::move(on_answer);
+  begun_ = begun;
   timed_out_ = false;
+  lacks_pose_ = false;
   ++serial_;
-  timer_ = node_.after(call_.within, [this] { time_out(); });
+  timer_ = node_.at(temporal::plus(begun, call_.within), [this] { time_out(); });
+}
+
+void Calls::begin(const method_run::Ask& ask, const services::owner::Request& above, OnAnswer on_answer) {
+  if (ask.number == 1) patient_ = false;
+  set(ask, above, node_.now(), std::move(on_answer));
   std::visit([this](const auto& call) { start(call); }, call_.what);
 }
 
-void Calls::start(const methods::CommandCall& call) {
-  commands_.call({call.owner, call.robot, call.subsystem, call.command, call.arguments, activity_,
-                  above_.key.attempt, above_.plan, above_.latest_end},
-                 [this](const Word& word) {
-                   keep([this] { record_.end(); });
-                   Answer result = answer_of(word);
-                   if (timed_out_ && word.stage == Stage::cancelled)
-                     result.error = "call-timeout", result.reason = "it took longer than it may";
-                   answer(std::move(result));
-                 });
+void Calls::resume(const method_run::Ask& ask, const services::owner::Request& above, temporal::Time begun,
+                   OnAnswer on_answer) {
+  patient_ = true;
+  set(ask, above, begun, std::move(on_answer));
+  const auto* command = std::get_if<methods::CommandCall>(&call_.what);
+  if (command && record_.open()) return commands_.adopt(*record_.open(), sent_as(*command), on_command_end());
+  std::visit([this](const auto& call) { start(call); }, call_.what);
+}
+
+services::commander::Call Calls::sent_as(const methods::CommandCall& call) const {
+  return {call.owner, call.robot,         call.subsystem, call.command,     call.arguments,
+          activity_,  above_.key.attempt, above_.plan,    above_.latest_end};
+}
+
+services::commander::CommandClient::OnEnd Calls::on_command_end() {
+  return [this](const Word& word) {
+    Answer result = answer_of(word);
+    if (timed_out_ && (word.stage == Stage::cancelled || word.stage == Stage::unknown))
+      result.error = "call-timeout", result.reason = "it took longer than it may";
+    answer(std::move(result));
+  };
+}
+
+void Calls::start(const methods::CommandCall& call) { commands_.call(sent_as(call), on_command_end()); }
+
+// After a death poses are heard again, sooner or later.
+bool Calls::waits_for_pose(std::initializer_list<const methods::Place*> places) {
+  lacks_pose_ = patient_ && std::ranges::any_of(places, [this](const methods::Place* place) {
+                  return !place->robot.empty() && !spot_of(*place);
+                });
+  return lacks_pose_;
 }
 
 void Calls::start(const methods::PathCall& call) {
+  if (waits_for_pose({&call.from, &call.to})) return;
   const auto from = spot_of(call.from);
   const auto to = spot_of(call.to);
   if (!from || !to) return answer_soon({"no-place", "a place of the path is not known", {}, {}});
@@ -168,7 +201,9 @@ void Calls::take_path(const services::CallResult<v1::PathReply>& result) {
 }
 
 void Calls::start(const methods::TransformCall& call) {
-  const auto robot = spot_of({"", call.robot, "", ""});
+  const methods::Place origin{"", call.robot, "", ""};
+  if (waits_for_pose({&origin, &call.place})) return;
+  const auto robot = spot_of(origin);
   const auto place = spot_of(call.place);
   if (!robot || !place)
     return answer_soon({"no-pose", "a pose was never observed, or a place is unknown", {}, {}});
@@ -187,10 +222,14 @@ void Calls::start(const methods::TransformCall& call) {
 
 void Calls::start(const methods::ObserveCall&) { look(); }
 
-void Calls::start(const methods::WaitCall& call) { answer_after(call.time, {}); }
+void Calls::start(const methods::WaitCall& call) {
+  answer_after(std::max(temporal::Duration(0), temporal::plus(begun_, call.time) - node_.now()), {});
+}
 
 // What is awaited may be so already, or become so by any observation.
 void Calls::look() {
+  if (std::exchange(lacks_pose_, false))
+    return std::visit([this](const auto& one) { start(one); }, call_.what);
   const auto* call = std::get_if<methods::ObserveCall>(&call_.what);
   if (!call) return;
   const auto seen = observed_.find(call->timeline);
@@ -209,6 +248,7 @@ void Calls::time_out() {
 
 void Calls::break_off() {
   if (!on_answer_) return;
+  lacks_pose_ = false;
   if (std::holds_alternative<methods::CommandCall>(call_.what))
     return commands_.cancel(activity_, above_.key.attempt);
   if (std::holds_alternative<methods::PathCall>(call_.what)) paths_.cancel(path_);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <initializer_list>
 #include <map>
 #include <optional>
 #include <string>
@@ -35,6 +36,13 @@ class Calls {
 
   /// Begins a call that belongs to this command from above; `on_answer` runs once, on the loop, never within begin().
   void begin(const method_run::Ask& ask, const services::owner::Request& above, OnAnswer on_answer);
+  /// Goes on with a call that an earlier process began then: adopts the command that is open, and begins all else again. It waits for poses
+  /// that it has not heard of yet.
+  void resume(const method_run::Ask& ask, const services::owner::Request& above, temporal::Time begun,
+              OnAnswer on_answer);
+  /// The name under which the call of this number commands: unique over the commanders from above and their epochs, and the same
+  /// whenever this command is carried out again.
+  static std::string activity_of(const services::owner::Request& above, std::uint32_t number);
   /// Ends the call that is under way early: its answer comes as ever, at the latest when its owner has answered.
   void break_off();
   /// Finds out what became of the command of an earlier process, ends what still runs, and then calls `settled`.
@@ -43,6 +51,8 @@ class Calls {
   const method_run::Observations& observed() const { return observed_; }
 
  private:
+  void set(const method_run::Ask& ask, const services::owner::Request& above, temporal::Time begun,
+           OnAnswer on_answer);
   void start(const methods::CommandCall& call);
   void start(const methods::PathCall& call);
   void start(const methods::TransformCall& call);
@@ -53,6 +63,9 @@ class Calls {
   void answer(method_run::Answer answer);
   void answer_after(temporal::Duration wait, method_run::Answer answer);
   void answer_soon(method_run::Answer answer) { answer_after(temporal::Duration(0), std::move(answer)); }
+  services::commander::Call sent_as(const methods::CommandCall& call) const;
+  services::commander::CommandClient::OnEnd on_command_end();
+  bool waits_for_pose(std::initializer_list<const methods::Place*> places);
   void take_path(const services::CallResult<v1::PathReply>& result);
   std::optional<Spot> spot_of(const methods::Place& place) const;
   std::optional<double> number(const std::string& timeline) const;
@@ -71,7 +84,10 @@ class Calls {
   std::string activity_;      // of its command
   OnAnswer on_answer_;        // empty: nothing is under way
   std::uint64_t serial_ = 0;  // counts the calls, so that a late answer is known as such
+  temporal::Time begun_{};
   bool timed_out_ = false;
+  bool patient_ = false;  // what was observed may still be on its way to this process
+  bool lacks_pose_ = false;
   services::rpc::CallId path_{};
   std::optional<services::Node::TimerId> timer_;
 };

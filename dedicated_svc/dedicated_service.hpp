@@ -1,5 +1,6 @@
 // A dedicated executive as a service: what the program and a rehearsal make.
 #pragma once
+#include <functional>
 #include <memory>
 
 #include "services/service.hpp"
@@ -7,7 +8,12 @@
 namespace roci::dedicated {
 
 /// Makes a dedicated executive with the methods of its mission file (README.md). Throws mission::FileError when they
-/// cannot be read or another dedicated executive of the mission's list shows the same timeline, std::system_error when its ledger cannot be opened.
+/// cannot be read, std::system_error when its ledger cannot be opened.
 std::unique_ptr<services::Service> make_service(services::Node& node, const services::RunSettings& settings);
+
+/// The same; `around_write` is called before and after each write of what its next process would go on with.
+std::unique_ptr<services::Service> make_watched_service(services::Node& node,
+                                                        const services::RunSettings& settings,
+                                                        std::function<void()> around_write);
 
 }  // namespace roci::dedicated

@@ -171,7 +171,10 @@ class ExecService final : public services::Service {
     planner_peak_kb_ = static_cast<std::uint32_t>(journal_.number("planner_peak_kb", 0));
     const Reactor& reactor = reactor_.reactor();
     publisher_.send_goals(reactor);
-    if (!recovery.resumed) return report_divergence(*recovery.divergence);
+    if (!recovery.resumed) {
+      orders_.tell_concluded(reactor);
+      return report_divergence(*recovery.divergence);
+    }
     publisher_.send_plan(reactor);
     decisions_.tell(reactor);
     orders_.tell(reactor);

@@ -72,12 +72,18 @@ OrderLink::OrderLink(services::Node& node, std::function<void(Order, std::string
 
 void OrderLink::send(const ReactorOutputs& out) const {
   for (const Observation& value : out.values) tell(value);
+  for (const Observation& value : out.concluded) tell(value);
   for (const OrderStatus& status : out.order_statuses) tell(status);
 }
 
 void OrderLink::tell(const Reactor& reactor) const {
   for (const auto& [timeline, value] : reactor.ground_values()) tell(Observation{timeline, value});
+  tell_concluded(reactor);
   tell_orders(reactor);
+}
+
+void OrderLink::tell_concluded(const Reactor& reactor) const {
+  for (const auto& [timeline, value] : reactor.concluded()) tell(Observation{timeline, value});
 }
 
 void OrderLink::tell_orders(const Reactor& reactor) const {

@@ -1,5 +1,5 @@
-/// The line to the ground: orders in, the stages of each out, and the values that the ground has set as
-/// observations for everybody.
+/// The line to the ground: orders in, the stages of each out; and, as observations for everybody, the values that the ground has set
+/// and what plans have made of timelines that nobody observes.
 #pragma once
 
 #include <functional>
@@ -23,6 +23,8 @@ class OrderLink {
   void send(const reactor::ReactorOutputs& out) const;
   /// Everything as it stands, for who joins after a restart.
   void tell(const reactor::Reactor& reactor) const;
+  /// What plans have made of timelines that nobody observes.
+  void tell_concluded(const reactor::Reactor& reactor) const;
   /// Where every order stands.
   void tell_orders(const reactor::Reactor& reactor) const;
 

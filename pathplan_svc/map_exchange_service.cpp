@@ -117,10 +117,7 @@ void MapExchange::hear(const v1::MapPatch& patch) {
   for (const v1::MapObstacle& one : patch.obstacles()) in.obstacles.push_back(obstacle_of(one));
   const Intake intake = map_.take(in);
   if (!intake.refusal.empty()) return refused(intake.refusal);
-  v1::TakenPatch& taken = taken_[in.author];
-  taken.author(in.author);
-  taken.map_version(patch.map_version());
-  taken.taken_us(node_.now().count());
+  taken_at_[in.author] = node_.now();
   if (intake.changed) take_over(patch, in, what);
   show();
   end_merges();
@@ -165,7 +162,14 @@ void MapExchange::show() {
     known.map_version(version);
     known.told_version(told_version_);
     known.told_us(told_us_);
-    for (const auto& [author, taken] : taken_) known.taken().push_back(taken);
+    for (const auto& [author, at] : taken_at_) {
+      const TakenPatch* patch = map_.newest(author);
+      if (patch == nullptr) continue;
+      v1::TakenPatch& taken = known.taken().emplace_back();
+      taken.author(author);
+      taken.map_version(patch->map_version);
+      taken.taken_us(at.count());
+    }
     known_maps_->write(std::move(known));
   });
 }

@@ -76,7 +76,7 @@ class MapExchange final : private services::owner::Driver {
   services::Publisher<v1::Event> events_;
   std::optional<services::Publisher<v1::MapPatch>> patches_;     // of who tells
   std::optional<services::Publisher<v1::KnownMap>> known_maps_;  // of a robot's
-  std::map<std::string, v1::TakenPatch> taken_;                  // by author
+  std::map<std::string, temporal::Time> taken_at_;               // the newest patch, by author
   std::uint64_t told_version_ = 0;
   std::int64_t told_us_ = -1;
   std::optional<services::owner::CommandServer> commands_;

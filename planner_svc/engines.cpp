@@ -5,6 +5,7 @@
 #include "planner_svc/temporal_pddl/adapter/pddl_engine.hpp"
 #include "planner_svc/temporal_pddl/checker/pddl_checker.hpp"
 #include "planner_svc/timeline_htn/adapter/timeline_engine.hpp"
+#include "planner_svc/timeline_htn/adapter/timeline_resolver.hpp"
 #include "planner_svc/timeline_htn/checking/timeline_checker.hpp"
 #include "planner_svc/utility_htn/adapter/utility_engine.hpp"
 #include "planner_svc/utility_htn/checking/utility_checker.hpp"
@@ -19,7 +20,8 @@ const engine::Table& engines() {
         [] { return std::make_unique<temporal_pddl::checker::PddlChecker>(); }}},
       {"timeline_htn",
        {engine::MakeAnswering([] { return std::make_unique<timeline_htn::adapter::TimelineEngine>(); }),
-        [] { return std::make_unique<timeline_htn::checking::TimelineChecker>(); }}},
+        [] { return std::make_unique<timeline_htn::checking::TimelineChecker>(); },
+        [](const engine::Setup&) { return std::make_unique<timeline_htn::adapter::TimelineResolver>(); }}},
       {"utility_htn",
        {engine::MakeStepped([](const engine::Setup& setup) {
           return std::make_unique<utility_htn::adapter::UtilityEngine>(

@@ -21,11 +21,11 @@ namespace roci::sim {
 using scenario::GoalStimulus;
 using scenario::HazardStimulus;
 using scenario::NetworkStimulus;
+using scenario::OrderStimulus;
 using scenario::RecallStimulus;
 using scenario::RunSetup;
 using scenario::Scenario;
 using scenario::Stimulus;
-using scenario::ValueStimulus;
 using temporal::Duration;
 using temporal::Time;
 using world::Answer;
@@ -53,26 +53,26 @@ constexpr char kGround[] = "ground";  // who tells of hazards that the scenario 
 constexpr Duration kCallDeadline = std::chrono::seconds(30);
 constexpr Duration kFarewell = std::chrono::seconds(1);  // from the mission's outcome to the end of the run
 
-// Returns the scenario's first stimulus that sets a value; null: there is none.
-const Stimulus* first_value(const Scenario& scenario) {
-  const auto sets = [](const Stimulus& stimulus) {
-    return std::holds_alternative<ValueStimulus>(stimulus.what);
+// Returns the scenario's first order of the ground; null: there is none.
+const Stimulus* first_order(const Scenario& scenario) {
+  const auto orders = [](const Stimulus& stimulus) {
+    return std::holds_alternative<OrderStimulus>(stimulus.what);
   };
-  const auto found = std::ranges::find_if(scenario.stimuli, sets);
+  const auto found = std::ranges::find_if(scenario.stimuli, orders);
   return found == scenario.stimuli.end() ? nullptr : &*found;
 }
 
 // In a secure run nobody would hear an order of a service that has no right to give any.
 void check_rights(const Scenario& scenario, const std::string& service,
                   const services::RunSettings& settings) {
-  const Stimulus* const value = first_value(scenario);
-  if (!settings.secure || value == nullptr) return;
+  const Stimulus* const order = first_order(scenario);
+  if (!settings.secure || order == nullptr) return;
   const mission::ServiceList services = mission::load_service_list_if_any(settings.mission);
   const mission::ServiceEntry* const own = services.find(service);
   if (own != nullptr && std::ranges::find(own->rights, "console") != own->rights.end()) return;
-  value->entry->fail(
-      "in a secure run the console alone gives orders; give this one there (roci order set), or let " +
-      service + " have 'rights: [world, console]' in services: and its certificate made anew");
+  order->entry->fail(
+      "in a secure run the console alone gives orders; give this one there (roci order), or let " + service +
+      " have 'rights: [world, console]' in services: and its certificate made anew");
 }
 
 class SimService final : public services::Service, private owner::Driver {
@@ -115,7 +115,7 @@ class SimService final : public services::Service, private owner::Driver {
     });
     node.at(Time{}, [this] { tell(world_.advance(node_.now())); });
     // In a secure run orders are the console's, so only who needs this asks for it.
-    if (first_value(scenario_) != nullptr) orders_.emplace(services::advertise(node, topics::order));
+    if (first_order(scenario_) != nullptr) orders_.emplace(services::advertise(node, topics::order));
     for (const Stimulus& stimulus : scenario_.stimuli) {
       node.at(stimulus.at, [this, &stimulus] { stimulate(stimulus); });
     }
@@ -265,7 +265,7 @@ class SimService final : public services::Service, private owner::Driver {
                            RockSeen{hazard.id, "", rock.x, rock.y, rock.radius, node_.now()}, kGround));
                      },
                      [this](const NetworkStimulus& order) { network_orders_.write(wire::to_wire(order)); },
-                     [this](const ValueStimulus& value) { orders_->write(wire::to_wire(value)); },
+                     [this](const OrderStimulus& order) { orders_->write(wire::to_wire(order)); },
                      [this, &stimulus](const world::Disturbance& disturbance) {
                        // An earlier process has suffered this already; a fall of rocks is no part of its memory.
                        if (world::adds_up(disturbance) && goes_on_from_ && stimulus.at <= *goes_on_from_)
@@ -382,7 +382,7 @@ class SimService final : public services::Service, private owner::Driver {
   services::Publisher<v1::TerrainFinding> findings_;  ///< for a robot's own map
   services::Publisher<v1::Goal> goals_;
   services::Publisher<v1::NetworkOrder> network_orders_;
-  std::optional<services::Publisher<v1::Order>> orders_;  ///< of scenarios that set values
+  std::optional<services::Publisher<v1::Order>> orders_;  ///< of scenarios in which the ground gives some
   services::Publisher<v1::Event> events_;
   std::map<std::pair<std::string, std::string>, const GoalStimulus*> uploaded_;  // by issuer and id
   std::size_t stimuli_done_ = 0;

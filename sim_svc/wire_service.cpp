@@ -153,6 +153,30 @@ v1::TerrainFinding finding_as(v1::ObstacleKind kind, const Seen& seen) {
   return out;
 }
 
+v1::OrderKind kind_of(scenario::OrderKind kind) {
+  switch (kind) {
+    case scenario::OrderKind::hold:
+      return v1::ORDER_HOLD;
+    case scenario::OrderKind::release:
+      return v1::ORDER_RELEASE;
+    case scenario::OrderKind::approve:
+      return v1::ORDER_APPROVE;
+    case scenario::OrderKind::set_value:
+      return v1::ORDER_SET_VALUE;
+    case scenario::OrderKind::autonomy:
+      return v1::ORDER_AUTONOMY;
+    case scenario::OrderKind::answer:
+      return v1::ORDER_ANSWER;
+    case scenario::OrderKind::drop:
+      return v1::ORDER_DROP;
+    case scenario::OrderKind::relaunch:
+      return v1::ORDER_RELAUNCH;
+    case scenario::OrderKind::safe:
+      return v1::ORDER_SAFE;
+  }
+  return v1::ORDER_HOLD;
+}
+
 }  // namespace
 
 v1::Hazard to_wire(const world::RockSeen& rock, const std::string& finder) { return hazard_of(rock, finder); }
@@ -185,15 +209,16 @@ v1::ArmMotionRequest to_wire(const world::MotionWanted& motion) {
   return out;
 }
 
-v1::Order to_wire(const scenario::ValueStimulus& value) {
+v1::Order to_wire(const scenario::OrderStimulus& order) {
   v1::Order out;
-  out.issuer(value.issuer);
-  out.id(value.id);
-  out.robot(value.robot);
-  out.order_kind(v1::ORDER_SET_VALUE);
-  out.target(value.timeline);
-  out.content(services::wire::to_wire(value.value));
-  out.autonomy(v1::AUTONOMY_E4);
+  out.issuer(order.issuer);
+  out.id(order.id);
+  out.robot(order.robot);
+  out.order_kind(kind_of(order.kind));
+  out.target(order.target);
+  out.content(services::wire::to_wire(order.value));
+  out.choice(order.choice);
+  out.autonomy(static_cast<v1::AutonomyLevel>(order.level - 1));
   return out;
 }
 

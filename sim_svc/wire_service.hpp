@@ -41,7 +41,7 @@ v1::ArmMotionRequest to_wire(const world::MotionWanted&);
 v1::Goal to_wire(const scenario::GoalStimulus&, bool recalled);
 /// The content goes as it is in the file, damaged or not.
 v1::NetworkOrder to_wire(const scenario::NetworkStimulus&);
-v1::Order to_wire(const scenario::ValueStimulus&);
+v1::Order to_wire(const scenario::OrderStimulus&);
 v1::Event event(v1::Severity, const std::string& code, const std::string& text);
 
 }  // namespace roci::sim::wire

@@ -101,6 +101,23 @@ MethodRun::MethodRun(const methods::Method& method, std::map<std::string, std::s
 
 Step MethodRun::begin() { return ask(); }
 
+Step MethodRun::begin_after(const std::vector<Taken>& taken) {
+  Step step = begin();
+  for (const Taken& one : taken) {
+    if (!step.ask) return {};
+    step = take(one.answer, one.observed);
+  }
+  return step;
+}
+
+Observations MethodRun::needed(const Observations& observed) const {
+  Observations out;
+  for (const auto& [error, repair] : method_->repairs)
+    for (const auto& [timeline, range] : repair.needs)
+      if (const auto found = observed.find(timeline); found != observed.end()) out.insert(*found);
+  return out;
+}
+
 Step MethodRun::ask() {
   auto call = filled(current());
   if (!call) return wrong_value(current().name + " needs a value that no call has brought", {});

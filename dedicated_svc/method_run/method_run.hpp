@@ -31,6 +31,12 @@ struct Answer {
   std::optional<double> energy_j{};
 };
 
+/// Is what decided a step of a run: with the same ones in the same order a run comes to the same call.
+struct Taken {
+  Answer answer;
+  Observations observed;  ///< all that the method asks for
+};
+
 /// Is how the command ended.
 struct End {
   std::string error{};  ///< empty: it is carried out. The failed call's, or wrong-value (R145)
@@ -59,6 +65,13 @@ class MethodRun {
   Step begin();
   /// Takes the answer to the call that was asked for last.
   Step take(const Answer& answer, const Observations& observed);
+  /// Begins, and takes what an earlier run of this command has taken: returns the step that that one came to. Neither call nor end, if it
+  /// would have ended before: it was another method.
+  Step begin_after(const std::vector<Taken>& taken);
+  /// Of what is observed, the numbers that this method's repairs need.
+  Observations needed(const Observations& observed) const;
+  /// Why a repair is under way; empty: none is.
+  std::string repairing() const { return go_on_ ? error_.reason : std::string{}; }
   /// Instead of the repair's first call: there is no time for it, so the error that it was for stands.
   End forbid_repair();
 

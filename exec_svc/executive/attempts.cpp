@@ -96,7 +96,7 @@ bool Attempts::retry(Index activity, Time now, const std::string& reason) {
   const PlanActivity& planned = state_->plan.activities[activity];
   ActivityRun& run = state_->runs[activity];
   if (!state_->starting() || !state_->permissions.recovers || run.retries_used >= planned.retries ||
-      now > deadlines_->end(activity))
+      !deadlines_->leaves_room(activity, now))
     return false;
   const auto within = state_->settings.retry_within.find(planned.name);
   if (within != state_->settings.retry_within.end() && now > plus(*run.started, within->second)) return false;
@@ -117,7 +117,10 @@ void Attempts::try_again(Index activity, Time now, const std::string& reason) {
   run.overrun_noted = false;
   const Duration spent = now - *run.started;
   const temporal::Window duration = state_->points.duration(activity);
-  state_->points.set_duration(activity, plus(spent, duration.lower), plus(spent, duration.upper));
+  const bool keeps_end =
+      state_->plan.activities[activity].lateness == temporal::LatenessPolicy::deadline;  // R129
+  state_->points.set_duration(activity, plus(spent, duration.lower),
+                              keeps_end ? duration.upper : plus(spent, duration.upper));
   run.latest_end = deadlines_->latest_end(activity);
   state_->enter(activity, ActivityPhase::sent, now);
   state_->send(activity, CommandAction::execute);
@@ -138,7 +141,7 @@ void Attempts::resume_after(const ContingencyEnd& end, Time now) {
       state_->settings.contingencies.at(state_->plan.activities[activity].contingency);
   const std::string what = "contingency " + contingency.name;
   const bool done = end.reason.empty();
-  if (done && contingency.retries && state_->starting() && now <= deadlines_->end(activity)) {
+  if (done && contingency.retries && state_->starting() && deadlines_->leaves_room(activity, now)) {
     state_->report_recovery(RecoveryAction::contingency, activity,
                             contingency.name + " is done, the activity is tried again");
     try_again(activity, now, "tried again after " + what);

@@ -28,6 +28,11 @@ Time Deadlines::end(Index activity) const {
   return earliest;
 }
 
+bool Deadlines::leaves_room(Index activity, Time now) const {
+  const bool keeps_end = state_->plan.activities[activity].lateness == LatenessPolicy::deadline;
+  return plus(now, keeps_end ? state_->points.duration(activity).lower : Duration{0}) <= end(activity);
+}
+
 Time Deadlines::hung_after(Index activity) const {
   const Duration longest = state_->points.duration(activity).upper;
   if (!bounded(longest)) return temporal::no_bound;
@@ -36,7 +41,10 @@ Time Deadlines::hung_after(Index activity) const {
   return plus(state_->runs[activity].attempt_started, plus(stretched, settings.overrun_grace));
 }
 
-Time Deadlines::latest_end(Index activity) const { return std::min(end(activity), hung_after(activity)); }
+Time Deadlines::latest_end(Index activity) const {
+  const Time last = end(activity);
+  return std::min(bounded(last) ? last - Duration{1} : last, hung_after(activity));
+}
 
 Time Deadlines::settled_from(Index activity) const {
   const PlanActivity& planned = state_->plan.activities[activity];

@@ -34,8 +34,8 @@ bool Dispatch::try_start(Index activity, Time now) {
   const PlanActivity& planned = state_->plan.activities[activity];
   ActivityRun& run = state_->runs[activity];
   if (run.phase != ActivityPhase::waiting) return false;
-  if (std::string refusal = state_->permissions.refusal(planned.id); !refusal.empty()) {
-    if (run.reason != refusal) state_->change(activity, run.state, std::move(refusal));  // the ground sees it
+  if (std::string refused = refusal(activity); !refused.empty()) {
+    if (run.reason != refused) state_->change(activity, run.state, std::move(refused));  // the ground sees it
     return false;
   }
   if (!planned.skip_if.empty() && evaluate(planned.skip_if, state_->lookup()) == Truth::yes) {
@@ -51,6 +51,24 @@ bool Dispatch::try_start(Index activity, Time now) {
   if (!state_->points.try_happen(planned.start_point, now)) return false;
   attempts_->start(activity, now);
   return true;
+}
+
+/// Returns why the ground does not let it start, or an activity that must start at the same time, in words.
+std::string Dispatch::refusal(Index activity) const {
+  const auto refused = [this](Index one) {
+    const PlanActivity& planned = state_->plan.activities[one];
+    return state_->permissions.refusal(planned.id, !planned.owner.empty());
+  };
+  std::string out = refused(activity);
+  if (!out.empty()) return out;
+  for (const TimePoint point :
+       state_->points.precedence().together[state_->plan.activities[activity].start_point]) {
+    const Index other = state_->points.owner(point).activity;
+    if (state_->runs[other].phase != ActivityPhase::waiting) continue;
+    if (out = refused(other); !out.empty())
+      return state_->plan.activities[other].id + " at the same time must not start: " + out;
+  }
+  return "";
 }
 
 /// Returns its own unmet preconditions, else those of an activity that must start at the same time, in words.

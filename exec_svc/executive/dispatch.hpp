@@ -28,6 +28,7 @@ class Dispatch {
   bool attempt(temporal::TimePoint point, temporal::Time now);
   bool try_start(Index activity, temporal::Time now);
   bool try_internal_end(Index activity, temporal::Time now);
+  std::string refusal(Index activity) const;
   std::string unmet_preconditions(Index activity) const;
 
   RunState* state_;

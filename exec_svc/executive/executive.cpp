@@ -26,6 +26,16 @@ struct Executive::Impl {
     store.advance(now);
   }
 
+  std::vector<std::string> load(temporal::FlexiblePlan plan, temporal::Time time, AfterStop stopped) {
+    std::vector<std::string> faults = check(plan);
+    if (!faults.empty()) return faults;
+    move_to(time);
+    const std::unique_ptr<PlanRun> before = std::move(run);
+    run = std::make_unique<PlanRun>(std::move(plan), settings, permissions, store, epoch);
+    if (before) run->adopt(*before, now, stopped);
+    return {};
+  }
+
   std::vector<AnswerResult> take_answers(const std::vector<DecisionAnswer>& given) {
     std::vector<AnswerResult> results;
     for (const DecisionAnswer& answer : given) {
@@ -45,14 +55,11 @@ Executive::Executive(Executive&&) noexcept = default;
 Executive& Executive::operator=(Executive&&) noexcept = default;
 
 std::vector<std::string> Executive::load(temporal::FlexiblePlan plan, temporal::Time now) {
-  std::vector<std::string> faults = check(plan);
-  if (!faults.empty()) return faults;
-  impl_->move_to(now);
-  const std::unique_ptr<PlanRun> before = std::move(impl_->run);
-  impl_->run = std::make_unique<PlanRun>(std::move(plan), impl_->settings, impl_->permissions, impl_->store,
-                                         impl_->epoch);
-  if (before) impl_->run->adopt(*before, impl_->now);
-  return {};
+  return impl_->load(std::move(plan), now, AfterStop::starts_anew);
+}
+
+std::vector<std::string> Executive::load_again(temporal::FlexiblePlan plan, temporal::Time now) {
+  return impl_->load(std::move(plan), now, AfterStop::goes_on);
 }
 
 Outputs Executive::step(temporal::Time now, const Inputs& inputs) {

@@ -65,6 +65,9 @@ class Executive {
   /// in the new plan under the same id go on; others that run are cancelled. Observed values are kept.
   /// Returns check(plan); if that is not empty, nothing has changed.
   std::vector<std::string> load(temporal::FlexiblePlan plan, temporal::Time now);
+  /// The same for a plan that was stopped and goes on (R149): activities without a command that had begun go
+  /// on from where they began, so that what they contain can be done in them.
+  std::vector<std::string> load_again(temporal::FlexiblePlan plan, temporal::Time now);
 
   /// Advances to `now` (never before the time of the call before). It also does so without a plan, as
   /// observations are kept.

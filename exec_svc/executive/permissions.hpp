@@ -8,15 +8,15 @@ namespace roci::exec::executive {
 
 struct Permissions {
   bool held = false;                        ///< no activity starts
-  bool each_approved = false;               ///< only what is approved starts
+  bool each_approved = false;               ///< of commands, only what is approved starts
   bool recovers = true;                     ///< retries and contingencies are used
   std::set<std::string> held_activities{};  ///< these do not start
   std::set<std::string> approved{};
 
   /// Why the activity may not start, in plain words; empty: it may. Its latest start passes all the same.
-  std::string refusal(const std::string& activity) const {
+  std::string refusal(const std::string& activity, bool commands) const {
     if (held || held_activities.contains(activity)) return "held by the ground";
-    if (each_approved && !approved.contains(activity)) return "waits for the ground's approval";
+    if (each_approved && commands && !approved.contains(activity)) return "waits for the ground's approval";
     return "";
   }
 };

@@ -14,9 +14,18 @@ PlanRun::PlanRun(temporal::FlexiblePlan plan, const ExecutiveSettings& settings,
                  const Permissions& permissions, TimelineStore& store, std::uint64_t epoch)
     : state_(std::move(plan), settings, permissions, store, epoch) {}
 
-void PlanRun::adopt(PlanRun& before, Time now) {
+// An activity without a command, which had begun at `started` when the plan was stopped.
+void PlanRun::go_on(Index activity, Time started, Time now) {
+  ActivityRun& run = state_.runs[activity];
+  run.started = run.attempt_started = started;
+  state_.store.begin(state_.plan.activities[activity]);
+  state_.enter(activity, ActivityPhase::running, now);
+}
+
+void PlanRun::adopt(PlanRun& before, Time now, AfterStop stopped) {
   withdraw_what_is_gone(before);
   std::vector<std::pair<Time, TimePoint>> events;
+  std::vector<Index> going_on;
   for (Index i = 0; i < state_.runs.size(); ++i) {
     const PlanActivity& planned = state_.plan.activities[i];
     const auto found = before.state_.index_of.find(planned.id);
@@ -25,6 +34,12 @@ void PlanRun::adopt(PlanRun& before, Time now) {
     const bool goes_on =
         (run.active() || run.state == ActivityState::succeeded) && run.phase != ActivityPhase::contingency;
     contingencies_.inherit(i, before.contingencies_, found->second, goes_on);
+    if (!goes_on && stopped == AfterStop::goes_on && planned.owner.empty() && run.started) {
+      go_on(i, *run.started, now);
+      going_on.push_back(i);
+      events.emplace_back(*run.started, planned.start_point);
+      continue;
+    }
     if (!goes_on) {
       state_.runs[i].attempt = run.attempt;
       // What is committed was promised as it stands, and so was the bound of its wait; what is only planned may have another start.
@@ -42,6 +57,7 @@ void PlanRun::adopt(PlanRun& before, Time now) {
   decisions_.inherit(before.decisions_, now);
   std::sort(events.begin(), events.end());
   for (const auto& [at, point] : events) state_.points.happen(point, at);
+  for (const Index activity : going_on) state_.change(activity, ActivityState::running, "goes on");
   state_.outputs.commands = std::move(before.state_.outputs.commands);
 }
 

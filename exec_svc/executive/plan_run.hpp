@@ -19,6 +19,9 @@
 
 namespace roci::exec::executive {
 
+/// What becomes of an activity without a command that had begun when the plan before was stopped.
+enum class AfterStop { starts_anew, goes_on };
+
 /// Runs one plan to its outcome; it is replaced as a whole by the run of the next plan.
 class PlanRun {
  public:
@@ -30,7 +33,7 @@ class PlanRun {
 
   /// Takes over from the run before what was started and stands in this plan too; the rest of it is
   /// cancelled.
-  void adopt(PlanRun& before, temporal::Time now);
+  void adopt(PlanRun& before, temporal::Time now, AfterStop stopped);
 
   /// Returns false if nothing that matches is awaited.
   bool take_ack(const CommandAck& ack, temporal::Time now) { return exchange_.take_ack(ack, now); }
@@ -64,6 +67,7 @@ class PlanRun {
 
  private:
   void withdraw_what_is_gone(PlanRun& before);
+  void go_on(Index activity, temporal::Time started, temporal::Time now);
   std::optional<temporal::Time> next_wake(temporal::Time now);
 
   RunState state_;

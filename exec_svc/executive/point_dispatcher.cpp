@@ -142,7 +142,7 @@ bool PointDispatcher::watched(TimePoint point) const { return open(point) && poi
 Time PointDispatcher::due_time(TimePoint point) const {
   const temporal::Window window = windows_.window(point);
   if (!waits(point)) return window.lower;
-  const Time wish = latest_starts_ ? window.upper : std::min(points_[point].preferred, window.upper);
+  const Time wish = std::min(points_[point].preferred, window.upper);
   return bounded(wish) ? std::max(window.lower, wish) : window.lower;
 }
 

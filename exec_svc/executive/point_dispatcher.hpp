@@ -15,9 +15,9 @@ namespace roci::exec::executive {
 /// Keeps for each time point what it still waits for; an event costs what it moves.
 class PointDispatcher {
  public:
-  /// Takes a plan that has passed check(). With latest_starts, starts are due at the end of their windows,
-  /// where these have one (R144), and otherwise at their preferred time, or as near to it as the window
-  /// allows (R67). With only_committed, what is not committed never starts, and is never late (R78).
+  /// Takes a plan that has passed check(). A start with a preferred time is due at that, or as near to it as
+  /// the window allows (R67); with latest_starts, every other one at the end of its window, where that has one
+  /// (R144). With only_committed, what is not committed never starts, and is never late (R78).
   explicit PointDispatcher(const temporal::FlexiblePlan& plan, bool latest_starts = false,
                            bool only_committed = false);
 
@@ -78,8 +78,8 @@ class PointDispatcher {
     bool reached_on = false;  ///< its successors count it no more
     bool due = false;
     bool dropped = false;
-    bool passed = false;       ///< successors have been told
-    bool may_be_late = false;  ///< its latest time does not matter
+    bool passed = false;                            ///< successors have been told
+    bool may_be_late = false;                       ///< its latest time does not matter
     temporal::Time preferred = temporal::no_bound;  ///< mission time; of starts alone
   };
 

@@ -23,6 +23,9 @@ constexpr std::size_t kTurnsUntilAnchor = 500;
 // So many plans another executive has not made meanwhile.
 constexpr std::int64_t kPlansOfAnother = 1000;
 
+// What plans have made of timelines that nobody observes.
+constexpr char kConcluded[] = "concluded";
+
 // Of requests the journal's table keeps what can be shown; the inputs have them exactly.
 bool same(const GoalRecord& a, const GoalRecord& b) {
   return a.request.key == b.request.key && a.state == b.state && a.reason == b.reason &&
@@ -102,11 +105,22 @@ bool JournaledReactor::replay() {
 void JournaledReactor::begin_anew() {
   reactor_ = std::make_unique<Reactor>(*mission_);
   reactor_->restore(journal_->goals(), static_cast<std::uint32_t>(journal_->number("plan_version", 0)));
-  const std::int64_t all = static_cast<std::int64_t>(orders::AutonomyLevel::e4);
-  reactor_->restore_authority(static_cast<orders::AutonomyLevel>(journal_->number("autonomy", all)),
+  const std::int64_t first = static_cast<std::int64_t>(mission_->executive.autonomy);
+  reactor_->restore_authority(static_cast<orders::AutonomyLevel>(journal_->number("autonomy", first)),
                               journal_->number("held", 0) != 0);
+  restore_concluded();
   journal_->set_number("format", journal::kInputFormat);
   anchor(temporal::Time{0}, "restored");
+}
+
+// Nobody else could tell them again.
+void JournaledReactor::restore_concluded() {
+  const std::string bytes = journal_->text(kConcluded);
+  if (bytes.empty()) return;
+  try {
+    reactor_->restore_concluded(archive::from_bytes<std::map<std::string, temporal::Value>>(bytes));
+  } catch (const ArchiveError&) {  // of another version of the code: they are brought about anew
+  }
 }
 
 ReactorOutputs JournaledReactor::step(temporal::Time now, ReactorInputs inputs,
@@ -133,6 +147,7 @@ void JournaledReactor::write(temporal::Time now, const ReactorInputs& inputs,
     journal_->set_number("autonomy", static_cast<std::int64_t>(reactor_->autonomy()));
     journal_->set_number("held", reactor_->held() ? 1 : 0);
   }
+  if (!out.concluded.empty()) journal_->set_text(kConcluded, to_bytes(reactor_->concluded()));
   if (out.adopted) journal_->set_number("plan_version", reactor_->plan_version());
   ++turns_since_anchor_;
   if (reactor_->at_rest() && (out.call || turns_since_anchor_ >= kTurnsUntilAnchor)) anchor(now, "anchor");

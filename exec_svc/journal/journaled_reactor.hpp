@@ -45,6 +45,7 @@ class JournaledReactor {
   void recover(bool doubtful);
   bool replay();
   void begin_anew();
+  void restore_concluded();
   void write(temporal::Time now, const reactor::ReactorInputs& inputs, const std::vector<std::string>& seen,
              const reactor::ReactorOutputs& out);
   void trace(temporal::Time now, const std::string& line);

@@ -12,6 +12,7 @@ namespace roci::exec::mission {
 using executive::Contingency;
 using executive::ContingencyCommand;
 using executive::StartPolicy;
+using orders::AutonomyLevel;
 
 namespace {
 
@@ -151,6 +152,17 @@ StartPolicy read_start(const Entry& entry) {
   static constexpr std::pair<const char*, StartPolicy> policies[]{{"earliest", StartPolicy::earliest},
                                                                   {"latest", StartPolicy::latest}};
   return read_word(entry, "start policy", policies);
+}
+
+// E5 is the paper's own: at E4, goals that are raised on board are worked in beside those of the ground. Whose goals
+// come is a matter of the mission's services, so both are one here (Z23).
+AutonomyLevel read_autonomy(const Entry& entry) {
+  static constexpr std::pair<const char*, AutonomyLevel> levels[]{{"E1", AutonomyLevel::e1},
+                                                                  {"E2", AutonomyLevel::e2},
+                                                                  {"E3", AutonomyLevel::e3},
+                                                                  {"E4", AutonomyLevel::e4},
+                                                                  {"E5", AutonomyLevel::e4}};
+  return read_word(entry, "level of autonomy", levels);
 }
 
 Replanning read_replanning(const Entry& entry) {

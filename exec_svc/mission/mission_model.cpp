@@ -131,7 +131,7 @@ constexpr Duration kShortestTerm = temporal::seconds(0.5);
 ReactorSettings read_executive(const Entry& entry) {
   entry.allow_only({"ack_timeout_s", "fallback_timeout_s", "replan_limit", "call_retries", "failure_limit",
                     "failure_pause_s", "failure_pause_max_s", "keep_inputs", "kept_records", "recovery",
-                    "start", "replanning", "standby_term_s"});
+                    "start", "replanning", "autonomy", "standby_term_s"});
   ReactorSettings out;
   out.ack_timeout = seconds_or(entry, "ack_timeout_s", temporal::to_seconds(out.ack_timeout));
   out.fallback_timeout = seconds_or(entry, "fallback_timeout_s", temporal::to_seconds(out.fallback_timeout));
@@ -146,6 +146,7 @@ ReactorSettings read_executive(const Entry& entry) {
   if (const auto recovery = entry.find("recovery")) out.recovery = read_strategy(*recovery);
   if (const auto start = entry.find("start")) out.start = read_start(*start);
   if (const auto replanning = entry.find("replanning")) out.replanning = read_replanning(*replanning);
+  if (const auto autonomy = entry.find("autonomy")) out.autonomy = read_autonomy(*autonomy);
   out.standby_term = seconds_or(entry, "standby_term_s", temporal::to_seconds(out.standby_term));
   if (out.standby_term < kShortestTerm)
     entry.at("standby_term_s").fail("a member's words would come too late for it; give at least 0.5 s");

@@ -11,6 +11,8 @@ namespace roci::exec::orders {
 
 class Authority {
  public:
+  explicit Authority(AutonomyLevel level) : level_(level) {}
+
   AutonomyLevel level() const { return level_; }
   void set_level(AutonomyLevel level) { level_ = level; }
 
@@ -33,7 +35,7 @@ class Authority {
   }
 
  private:
-  AutonomyLevel level_ = AutonomyLevel::e4;
+  AutonomyLevel level_;
   bool held_ = false;
   std::set<std::string> held_activities_;
   std::set<std::string> approved_;

@@ -6,6 +6,7 @@
 
 #include "core/temporal/value.hpp"
 #include "exec_svc/goals/goal_set.hpp"
+#include "exec_svc/orders/autonomy_level.hpp"
 #include "exec_svc/orders/issued_key.hpp"
 
 namespace roci::exec::orders {
@@ -25,16 +26,6 @@ enum class OrderKind {
 };
 /// "hold", "release", …, "set" for set_value.
 const char* to_string(OrderKind kind);
-
-/// Levels of autonomous execution, after those of ECSS-E-ST-70-11C.
-enum class AutonomyLevel {
-  e1,  ///< each activity waits for an approval; else as e2
-  e2,  ///< the plan runs; nothing is retried or replanned on board, a broken plan makes safe and waits
-  e3,  ///< local recovery (retries, contingencies), no replanning
-  e4,  ///< everything
-};
-/// "E1" to "E4".
-const char* to_string(AutonomyLevel level);
 
 /// An order as it came in; which of the members count depends on its kind.
 struct Order {

@@ -18,7 +18,8 @@ std::string first_line(const std::string& text);
 
 struct MissionState {
   /// The model outlives the state.
-  explicit MissionState(const mission::MissionModel& model) : mission(&model), beliefs(model), goals(model) {}
+  explicit MissionState(const mission::MissionModel& model)
+      : mission(&model), beliefs(model), goals(model), authority(model.executive.autonomy) {}
 
   const mission::MissionModel* mission;
   beliefs::Beliefs beliefs;

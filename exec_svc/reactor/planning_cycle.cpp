@@ -6,6 +6,7 @@
 #include "exec_svc/problem/problem_writer.hpp"
 #include "exec_svc/reactor/plan_binding.hpp"
 #include "exec_svc/reactor/recovery_policy.hpp"
+#include "exec_svc/reactor/start_times.hpp"
 
 namespace roci::exec::reactor {
 
@@ -111,12 +112,21 @@ void PlanningCycle::adopt(Time now, const PlanReply& reply) {
   std::string fault =
       bind_plan(plan, plan_->version() + 1, *state_->mission, call_->request().problem, state_->beliefs);
   if (!recovery_policy_of(state_->mission->executive.recovery).flexible) make_inflexible(plan);
+  if (fault.empty()) set_start_times(plan);
   if (fault.empty()) fault = plan_->load(plan, now);
   if (!fault.empty()) return safing_->make_safe(now, "the planner's plan cannot be executed: " + fault);
   for (std::size_t i = 0; i < planned.size(); ++i) planned[i].activity = plan.activities[i].id;
   plan_->keep_actions(std::move(planned));
   note_planned();
   plan_->begin(now);
+}
+
+void PlanningCycle::set_start_times(temporal::FlexiblePlan& plan) const {
+  if (state_->authority.level() == orders::AutonomyLevel::e2) {
+    fix_starts(plan);
+  } else if (state_->mission->executive.start == executive::StartPolicy::latest) {
+    prefer_latest_starts(plan);
+  }
 }
 
 bool PlanningCycle::give_up_unseen() {

@@ -51,6 +51,8 @@ class PlanningCycle {
   bool suspect_a_goal(temporal::Time now, const PlanReply& reply);
   void try_again_later(temporal::Time now, const PlanReply& reply);
   void note_planned();
+  /// Times of the starts beyond what the plan asks for: fixed ones at E2, the latest where the mission says so.
+  void set_start_times(temporal::FlexiblePlan& plan) const;
   /// Ends the goals for which a plan without activities was adopted before, with nothing achieved by it. True: there were
   /// such goals.
   bool give_up_unseen();

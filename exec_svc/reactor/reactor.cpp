@@ -23,7 +23,7 @@ using mission::Replanning;
 using temporal::Time;
 
 struct Reactor::Parts {
-  explicit Parts(const MissionModel& mission) : state(mission) {}
+  explicit Parts(const MissionModel& mission) : state(mission) { ground.reinstate(); }
 
   MissionState state;
   RunningPlan plan{state};
@@ -83,6 +83,11 @@ void Reactor::restore_authority(orders::AutonomyLevel level, bool held) {
   parts_->state.authority.set_level(level);
   parts_->state.authority.hold_all(held);
   parts_->ground.reinstate();
+}
+
+void Reactor::restore_concluded(const std::map<std::string, temporal::Value>& concluded) {
+  for (const auto& [timeline, value] : concluded) parts_->state.beliefs.conclude(timeline, value);
+  parts_->plan.restore_concluded(concluded);
 }
 
 void Reactor::take_services(const ReactorInputs& inputs) {
@@ -172,7 +177,7 @@ void Reactor::restore(std::string_view snapshot) {
   }
   parts_->plan.restore_observations(observed);
   parts_->plan.keep_actions(std::move(remaining));
-  for (const auto& [timeline, value] : concluded) state.beliefs.conclude(timeline, value);
+  restore_concluded(concluded);
   for (auto& [timeline, facts] : assumed) state.beliefs.assume(timeline, std::move(facts));
 }
 
@@ -214,6 +219,10 @@ std::map<std::string, temporal::Value> Reactor::ground_values() const {
 
 const std::map<std::string, temporal::Value>& Reactor::observed() const {
   return parts_->state.beliefs.values();
+}
+
+const std::map<std::string, temporal::Value>& Reactor::concluded() const {
+  return parts_->state.beliefs.concluded();
 }
 
 orders::AutonomyLevel Reactor::autonomy() const { return parts_->state.authority.level(); }

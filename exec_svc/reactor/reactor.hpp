@@ -30,6 +30,9 @@ class Reactor {
   /// The same for what the ground leaves to the executive.
   void restore_authority(orders::AutonomyLevel level, bool held);
 
+  /// The same for what plans have made of timelines that nobody observes.
+  void restore_concluded(const std::map<std::string, temporal::Value>& concluded);
+
   ReactorOutputs step(temporal::Time now, const ReactorInputs& inputs);
 
   /// Nothing is commanded and no end of a command awaited: snapshot() is all there is to know.
@@ -60,6 +63,8 @@ class Reactor {
   std::map<std::string, temporal::Value> ground_values() const;
   /// The newest value of every timeline that was observed.
   const std::map<std::string, temporal::Value>& observed() const;
+  /// What plans have made of timelines that nobody observes.
+  const std::map<std::string, temporal::Value>& concluded() const;
   orders::AutonomyLevel autonomy() const;
   /// By order: nothing new starts.
   bool held() const;

@@ -30,6 +30,8 @@ std::string relaunch_fault(const temporal::FlexiblePlan& plan, const std::vector
     if (steps[i].state == ActivityState::succeeded) {
       events.emplace_back(*steps[i].started, activity.start_point);
       events.emplace_back(*steps[i].ended, activity.end_point);
+    } else if (activity.owner.empty() && steps[i].started) {  // it goes on
+      events.emplace_back(*steps[i].started, activity.start_point);
     } else {
       to_do.push_back(&activity);
     }

@@ -87,17 +87,24 @@ void RunningPlan::step(Time now, const ReactorInputs& inputs) {
 // An activity without a command is the only one that knows what it has made of a timeline. Each value counts, also one that the next
 // activity changes at the same time.
 void RunningPlan::conclude(const std::vector<StepStatus>& changes, Time now) {
+  // An engine that plans all the time keeps such timelines itself.
+  const bool engine_knows = state_->mission->executive.replanning == mission::Replanning::continuous;
   for (const StepStatus& step : changes) {
     const temporal::PlanActivity* const activity = executive_.activity(step.activity);
     if (activity == nullptr || !activity->owner.empty() || !step.started) continue;
     const bool succeeded = step.state == temporal::ActivityState::succeeded;
     bool news = false;
+    const auto conclude = [&](const std::string& timeline, const std::optional<temporal::Value>& value) {
+      if (!state_->beliefs.conclude(timeline, value)) return;
+      news = true;
+      if (!engine_knows) state_->out.concluded.push_back({timeline, value.value_or(temporal::Value{})});
+    };
     for (const temporal::Impact& impact : activity->impacts) {
       if (impact.kind != temporal::ImpactKind::assign) continue;
       if (step.ended && !succeeded) {  // what lasted gives way to the value before it
-        news = state_->beliefs.conclude(impact.timeline, executive_.value_of(impact.timeline)) || news;
+        conclude(impact.timeline, executive_.value_of(impact.timeline));
       } else if ((impact.moment == temporal::ImpactWhen::at_end) == succeeded) {
-        news = state_->beliefs.conclude(impact.timeline, impact.amount) || news;
+        conclude(impact.timeline, impact.amount);
       }
     }
     if (news) note_achieved(*state_, now);
@@ -172,7 +179,7 @@ std::string RunningPlan::relaunch(Time now, const std::set<std::string>& dropped
   const std::set<std::string> without = left_out(steps, dropped);
   if (std::string fault = relaunch_fault(plan, steps, without, now); !fault.empty()) return fault;
   plan.version = ++version_;
-  executive_.load(plan, now);
+  executive_.load_again(plan, now);
   invalid_ = false;
   for (const std::string& activity : without) executive_.drop(activity, "left out by the relaunch");
   watch(plan, true);
@@ -262,6 +269,12 @@ void RunningPlan::restore_observations(const std::vector<Observation>& observati
   Inputs observed;
   tell_observed(observations, observed);
   executive_.step(Time{0}, observed);
+}
+
+void RunningPlan::restore_concluded(const std::map<std::string, temporal::Value>& concluded) {
+  Inputs known;
+  for (const auto& [timeline, value] : concluded) known.settings.push_back({timeline, value});
+  executive_.step(Time{0}, known);
 }
 
 /// What the ground sets, nobody observes: it is so from then on, until an activity makes something else of it.

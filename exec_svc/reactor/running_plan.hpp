@@ -95,6 +95,8 @@ class RunningPlan {
   std::vector<PlannedAction> remaining() const;
   /// The executive knows again what was observed before a restart.
   void restore_observations(const std::vector<executive::Observation>& observations);
+  /// The same for what plans have made of timelines that nobody observes.
+  void restore_concluded(const std::map<std::string, temporal::Value>& concluded);
 
   template <class Archive, class Self>
   static void fields(Archive& archive, Self& self) {

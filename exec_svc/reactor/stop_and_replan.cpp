@@ -1,5 +1,7 @@
 #include "exec_svc/reactor/stop_and_replan.hpp"
 
+#include <algorithm>
+
 namespace roci::exec::reactor {
 
 using executive::OutcomeKind;
@@ -7,6 +9,8 @@ using mission::Component;
 using temporal::Time;
 
 namespace {
+
+constexpr char kAwaits[] = "; no plan before these were observed: ";
 
 std::string names_of(const std::vector<const Component*>& components) {
   std::string out;
@@ -38,8 +42,8 @@ void StopAndReplan::begin_pause(Time now) {
     state.replan_wanted = false;
     return;
   }
-  if (!state.beliefs.unobserved().empty())
-    return;  // the first observation of the last one brings us here again
+  if (const auto unobserved = state.beliefs.unobserved(); !unobserved.empty())
+    return tell_awaited(unobserved);  // the first observation of the last one brings us here again
   state.replan_wanted = false;
   state.report(Severity::info, "plan.wanted", state.replan_reason);
   if (!parts_.recovery.may_replan(now)) return;
@@ -48,6 +52,19 @@ void StopAndReplan::begin_pause(Time now) {
   pause_deadline_ = now + state.mission->executive.fallback_timeout;
   parts_.safing.expect_fallbacks_again();
   parts_.plan.cancel(now);
+}
+
+/// Told once for each wish, and again when others are awaited: the reason of the wish remembers it.
+void StopAndReplan::tell_awaited(const std::vector<const Component*>& unobserved) {
+  MissionState& state = parts_.state;
+  std::string awaited = kAwaits;
+  for (const Component* component : unobserved)
+    awaited += (awaited == kAwaits ? "" : ", ") + component->name + " (" + component->timeline + " of " +
+               component->owner + ")";
+  if (state.replan_reason.ends_with(awaited)) return;
+  state.replan_reason.resize(std::min(state.replan_reason.find(kAwaits), state.replan_reason.size()));
+  state.replan_reason += awaited;
+  state.report(Severity::warning, "plan.waits", state.replan_reason);
 }
 
 void StopAndReplan::continue_pause(Time now) {

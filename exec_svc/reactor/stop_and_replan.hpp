@@ -18,6 +18,8 @@ class StopAndReplan : public ReplanningPolicy {
   /// Grants a wish for a plan: the pause begins. Without open goals nothing is to be planned; before every
   /// component has been observed the wish stays.
   void begin_pause(temporal::Time now);
+  /// Tells the ground (`plan.waits`) whom a wish for a plan waits for, once for each of those that are awaited.
+  void tell_awaited(const std::vector<const mission::Component*>& unobserved);
   /// Calls the planner once nothing runs and every component is inactive; one that does not become inactive
   /// in time makes the robot safe.
   void continue_pause(temporal::Time now);

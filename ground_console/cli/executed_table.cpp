@@ -14,20 +14,6 @@ namespace {
 
 using nlohmann::json;
 
-const char* name_of(v1::ExecutedOutcome outcome) {
-  switch (outcome) {
-    case v1::EXECUTED_FINISHED:
-      return "finished";
-    case v1::EXECUTED_BROKEN:
-      return "broken";
-    case v1::EXECUTED_CANCELLED:
-      return "cancelled";
-    case v1::EXECUTED_REPLACED:
-      return "replaced";
-  }
-  return "unknown";
-}
-
 std::vector<InLevels<v1::ExecutedActivity>> ordered(const v1::ExecutedPlan& plan) {
   return in_levels(plan.activities(), [](const v1::ExecutedActivity* one) {
     return one->started_us() < 0 ? std::numeric_limits<std::int64_t>::max() : one->started_us();
@@ -55,7 +41,7 @@ std::string executed_table(const v1::ExecutedPlan& plan) {
                     one->attempts() == 0 ? "" : std::to_string(one->attempts()), results_text(one->results()),
                     one->cause()});
   return "plan " + std::to_string(plan.version()) + ", from " + lib::clock_text(plan.origin_us()) + ": " +
-         name_of(plan.outcome()) + (plan.reason().empty() ? "" : " (" + plan.reason() + ")") + "\n\n" +
+         lib::name_of(plan.outcome()) + (plan.reason().empty() ? "" : " (" + plan.reason() + ")") + "\n\n" +
          table_text(rows);
 }
 
@@ -80,7 +66,7 @@ json executed_json(const v1::ExecutedPlan& plan) {
   return {{"executive", plan.executive()},
           {"version", plan.version()},
           {"origin_s", static_cast<double>(plan.origin_us()) * 1e-6},
-          {"outcome", name_of(plan.outcome())},
+          {"outcome", lib::name_of(plan.outcome())},
           {"reason", plan.reason()},
           {"activities", activities}};
 }

@@ -304,7 +304,10 @@ int main(int argc, char** argv) {
   reach->add_option("--service", line.reach.service, "The path planner that is asked")->capture_default_str();
   CLI::App* map =
       add_verb(app, line, "map", "Draw the ground with hazards, zones, planned and driven ways", nullptr);
-  map->add_option("--png", line.map.png, "The file to write")->required();
+  map->add_option("--png", line.map.png, "Write the ground as a picture to this file");
+  map->add_option(
+      "--svg", line.map.svg,
+      "Write to this file what each robot knows of the ground, their ways, and what timelines showed when");
   map->add_option("--mission", line.map.mission,
                   "Mission folder or name: it alone is drawn, unless a run is named, too");
   map->add_option("--run", line.map.run,

@@ -76,6 +76,20 @@ std::string mission_text(const v1::MissionStatus& mission) {
 
 }  // namespace
 
+namespace {
+
+// The plan after which nothing is executed (R129); null: one is, or is being made, or none has ended.
+const v1::ExecutedPlan* idle_after(const lib::MissionView& view) {
+  const v1::MissionStatus* mission = view.mission();
+  if (mission == nullptr || view.executed().empty()) return nullptr;
+  const auto phase = mission->phase();
+  if (phase != v1::PHASE_IDLE && phase != v1::PHASE_FINISHED && phase != v1::PHASE_SAFE) return nullptr;
+  const v1::ExecutedPlan& last = view.executed().rbegin()->second;
+  return last.version() == mission->plan_version() ? &last : nullptr;
+}
+
+}  // namespace
+
 json status_json(const lib::MissionView& view) {
   json out{{"time_s", static_cast<double>(view.now_us()) / 1e6},
            {"goals", json::array()},
@@ -84,6 +98,12 @@ json status_json(const lib::MissionView& view) {
   if (const v1::MissionStatus* mission = view.mission()) {
     out["mission"] = mission->mission();
     add_mission(out, *mission);
+  }
+  if (const v1::ExecutedPlan* last = idle_after(view)) {
+    out["idle"] = {{"since_s", static_cast<double>(last->header().stamp_us()) / 1e6},
+                   {"after_plan", last->version()},
+                   {"outcome", lib::name_of(last->outcome())},
+                   {"reason", last->reason()}};
   }
   if (view.executives().size() > 1) {
     for (const auto& [name, mission] : view.missions()) add_mission(out["executives"][name], mission);
@@ -190,6 +210,11 @@ std::string status_text(const lib::MissionView& view) {
         out += "  " + printable(padded(name, 24)) + " " + mission_text(its) + "\n";
   } else {
     out += "no status from exec_svc\n";
+  }
+  if (const v1::ExecutedPlan* last = idle_after(view)) {
+    out += "idle since " + lib::clock_text(last->header().stamp_us()) + ": plan " +
+           std::to_string(last->version()) + " " + lib::name_of(last->outcome()) +
+           (last->reason().empty() ? "" : ", " + printable(last->reason())) + "\n";
   }
   if (const v1::LeaseMessage* leader = view.leader()) out += "executive: " + lib::pair_text(*leader) + "\n";
   out += "\nGoals\n";

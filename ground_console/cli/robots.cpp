@@ -98,6 +98,39 @@ std::vector<Robot> robots_of(const lib::MissionView& view) {
   return out;
 }
 
+std::vector<std::pair<std::string, std::string>> states_by_family(const lib::MissionView& view,
+                                                                  const Robot& robot) {
+  constexpr std::size_t kFamily = 3;
+  struct Family {
+    std::size_t count = 0;
+    std::int64_t newest_us = -1;
+    std::string newest;
+  };
+  const auto family_of = [](const std::string& name) { return name.substr(0, name.find('.')); };
+  std::map<std::string, Family> families;
+  for (const auto& [name, value] : robot.states) {
+    if (name.find('.') == std::string::npos) continue;
+    Family& family = families[family_of(name)];
+    ++family.count;
+    const std::int64_t sampled = view.timelines().at(robot.name + "." + name).sampled_us();
+    if (sampled < family.newest_us) continue;
+    family.newest_us = sampled;
+    family.newest = name.substr(name.find('.') + 1) + " " + value;
+  }
+  std::vector<std::pair<std::string, std::string>> out;
+  std::set<std::string> told;
+  for (const auto& [name, value] : robot.states) {
+    const auto family = families.find(family_of(name));
+    if (name.find('.') == std::string::npos || family->second.count < kFamily) {
+      out.emplace_back(name, value);
+    } else if (told.insert(family->first).second) {
+      out.emplace_back(family->first + ".*",
+                       std::to_string(family->second.count) + ", newest " + family->second.newest);
+    }
+  }
+  return out;
+}
+
 std::vector<std::pair<std::string, std::string>> states_of_the_team(const lib::MissionView& view,
                                                                     const std::vector<Robot>& robots) {
   std::vector<std::pair<std::string, std::string>> out;
@@ -234,7 +267,7 @@ std::string robots_text(const lib::MissionView& view) {
     if (!robot.doing.empty()) head.push_back(robot.doing);
     if (const std::string where = where_text(robot); !where.empty()) head.push_back(where);
     out += "  " + printable(joined(head, "   ")) + "\n";
-    for (const auto& [timeline, value] : robot.states)
+    for (const auto& [timeline, value] : states_by_family(view, robot))
       out += "    " + printable(padded(timeline, 18) + value) + "\n";
     for (const v1::KnownMap* map : robot.maps) out += "    " + padded("map", 18) + map_text(*map) + "\n";
   }

@@ -23,6 +23,10 @@ struct Robot {
   std::vector<const v1::KnownMap*> maps{};  ///< of its path planners
 };
 
+/// Its states; a family of three timelines or more, "way.w0.w1" and so on, is one: "way.*" is "3, newest w1.w2 open".
+std::vector<std::pair<std::string, std::string>> states_by_family(const lib::MissionView& view,
+                                                                  const Robot& robot);
+
 /// The robots that services belong to, that are seen at a place, or that have a battery, by name.
 std::vector<Robot> robots_of(const lib::MissionView& view);
 

@@ -147,7 +147,7 @@ int list_goals(lib::Client& client, bool why, bool as_json) {
 
 int show_status(lib::Client& client, bool as_json) {
   if (!client.wait_for_mission(kAnswerLimit)) return no_mission(client.view());
-  client.wait([] { return false; }, std::chrono::milliseconds(300));
+  client.settle();
   std::cout << (as_json ? json_text(status_json(client.view())) + "\n" : status_text(client.view()));
   return kDone;
 }
@@ -212,7 +212,7 @@ int show_executed(lib::Client& client, std::uint32_t version, bool as_json) {
 int show_plan(lib::Client& client, const std::string& why, bool as_json) {
   if (!client.wait_for_mission(kAnswerLimit)) return no_mission(client.view());
   client.wait([&] { return client.view().plan() != nullptr; }, std::chrono::milliseconds(1000));
-  client.wait([] { return false; }, std::chrono::milliseconds(300));
+  client.settle();
   tell_whose(client.view());
   if (!why.empty()) return show_values(client.view(), why, as_json);
   if (as_json) {

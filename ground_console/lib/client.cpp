@@ -163,6 +163,19 @@ bool Client::wait(const std::function<bool()>& done, milliseconds limit) {
   return true;
 }
 
+void Client::settle(milliseconds quiet, milliseconds limit) {
+  const auto end = services::clock::wall_now() + limit;
+  const auto known = [this] {
+    return view_.services().size() + view_.timelines().size() + view_.goals().size() + view_.maps().size() +
+           view_.missions().size();
+  };
+  std::size_t seen = 0;
+  do {
+    seen = known();
+    wait([&] { return known() > seen; }, quiet);
+  } while (known() > seen && services::clock::wall_now() < end);
+}
+
 std::optional<v1::GoalStatus> Client::send_goal(const v1::Goal& goal, milliseconds limit) {
   wait_for_mission(limit);
   goals_.write(goal);

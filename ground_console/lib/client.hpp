@@ -80,6 +80,11 @@ class Client {
   std::optional<v1::PathReply> find_path(Place from, Place to, const std::string& service,
                                          std::chrono::milliseconds limit, std::string& why);
 
+  /// Waits until nothing that is new to the view has come for `quiet`: services tell their newest state one after the other, as they are
+  /// found. Gives up after `limit`.
+  void settle(std::chrono::milliseconds quiet = std::chrono::milliseconds(700),
+              std::chrono::milliseconds limit = std::chrono::milliseconds(5000));
+
   /// No other console ever has the same.
   const std::string& name() const { return node_.options().name; }
 

@@ -256,6 +256,10 @@ const char* name_of(v1::MissionPhase phase) {
   return name_in(std::array{"idle", "pausing", "planning", "executing", "safe", "finished"}, phase);
 }
 
+const char* name_of(v1::ExecutedOutcome outcome) {
+  return name_in(std::array{"finished", "broken", "cancelled", "replaced"}, outcome);
+}
+
 const char* name_of(v1::GoalState state) {
   return name_in(std::array{"rejected", "pending", "planned", "achieved", "dropped", "failed", "recalled"},
                  state);

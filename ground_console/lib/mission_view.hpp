@@ -142,6 +142,7 @@ class MissionView {
 };
 
 const char* name_of(v1::MissionPhase phase);
+const char* name_of(v1::ExecutedOutcome outcome);
 const char* name_of(v1::GoalState state);
 const char* name_of(v1::GoalClass importance);
 const char* name_of(v1::AckStage stage);  ///< "journaled", "held by both"

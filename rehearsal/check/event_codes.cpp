@@ -5,7 +5,7 @@ namespace roci::rehearsal::check {
 const std::vector<std::string>& event_codes() {
   // clang-format off
   static const std::vector<std::string> codes = {
-      "ack.foreign", "answer.no_room", "calls.damaged", "calls.settling", "calls.unwritten", "clock.drift", "clock.offset", "clock.set", "command.epoch_jump",
+      "ack.foreign", "answer.no_room", "calls.damaged", "calls.resumed", "calls.settling", "calls.unwritten", "clock.drift", "clock.offset", "clock.set", "command.epoch_jump",
       "command.foreign", "commander.doubled", "contract.mismatch", "datagram.refused", "epoch.refused",
       "epoch.taken", "executive.resumed", "fact.left_out", "fallback.failed", "goal.accepted",
       "goal.achieved", "goal.dropped", "goal.failed", "goal.merged", "goal.no_room", "goal.recalled",
@@ -14,7 +14,7 @@ const std::vector<std::string>& event_codes() {
       "lead.whole", "ledger.unwritten", "map.changed", "map.finding_refused", "map.patch_refused", "map.patch_taken", "map.told", "map.unknown", "model.no_room", "motion.refused",
       "network.accepted", "network.in_force", "network.refused", "observation.malformed", "order.accepted", "order.malformed", "order.no_room", "order.refused",
       "place.unusable", "plan.adopted", "plan.broken", "plan.conflict", "plan.finished", "plan.kept",
-      "plan.malformed", "plan.outdated", "plan.refused", "plan.relaunched", "plan.retry", "plan.wanted",
+      "plan.malformed", "plan.outdated", "plan.refused", "plan.relaunched", "plan.retry", "plan.waits", "plan.wanted",
       "planner.blocked", "planner.cycle", "planner.defect", "planner.measured", "planner.network_damaged",
       "planner.network_unwritten", "planner.no_room", "planner.verdict", "planner.warning", "pose.unusable",
       "reserve.spent", "robot.safe", "robot.safing", "robot.unsafe", "run.foreign", "sample.refused",

@@ -36,6 +36,16 @@ void CommandClient::call(const Call& what, OnEnd on_end) {
   await(key);
 }
 
+void CommandClient::adopt(const Issued& issued, const Call& what, OnEnd on_end) {
+  const Key key{what.activity, what.attempt};
+  UnderWay& one = under_way_[key];
+  one.call = what;
+  one.issued = issued.key.issued_epoch;
+  one.on_end = std::move(on_end);
+  send(one, v1::COMMAND_QUERY);
+  await(key);
+}
+
 void CommandClient::settle(const Issued& issued, OnEnd on_end) {
   const Key key{issued.key.activity, issued.key.attempt};
   UnderWay& one = under_way_[key];

@@ -54,6 +54,9 @@ class CommandClient {
 
   /// `on_end` runs on the loop, never within call().
   void call(const Call& what, OnEnd on_end);
+  /// Goes on with a command of an earlier process of this name, by its old key: its end is told as that of call(); if its owner has never
+  /// heard of it, it is sent.
+  void adopt(const Issued& issued, const Call& what, OnEnd on_end);
   /// Asks to end a command early; its end is told as ever. Nothing, if it is not under way.
   void cancel(const std::string& activity, std::uint32_t attempt);
   /// Finds out what became of a command of an earlier process of this name, and ends it if it still runs. `robot` and

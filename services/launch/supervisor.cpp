@@ -84,6 +84,8 @@ void Supervisor::after_end(const std::string& name, Service& service, const Endi
     return fail(name, "lost the clock of the run", false, now);
   if (ending.exited && ending.code == kServiceBadInput) return fail(name, what, true, now);
   if (ending.exited && ending.code == kServiceNoTransport) {
+    if (!service.ran && hooks_.may_be_missed && hooks_.may_be_missed(name))
+      return miss(name, service, what, "", now);
     if (!service.ran) return fail(name, what, false, now);
     return start_again(name, service, what + ", as long as its network is out", RestartPolicy::kNetworkPause,
                        now);
@@ -92,7 +94,9 @@ void Supervisor::after_end(const std::string& name, Service& service, const Endi
     return fail(name, what + "; it is the clock of the run", false, now);
   if (now - service.started >= RestartPolicy::kHealthyAfter) service.missed = false;
   const auto pause = service.policy.died(now - service.started);
-  if (!pause && hooks_.may_be_missed && hooks_.may_be_missed(name)) return miss(name, service, what, now);
+  if (!pause && hooks_.may_be_missed && hooks_.may_be_missed(name))
+    return miss(name, service, what,
+                ", the " + std::to_string(RestartPolicy::kDeathsInARow) + "th time in a row", now);
   if (!pause) {
     return fail(name, what + ", the " + std::to_string(RestartPolicy::kDeathsInARow) + "th time in a row",
                 false, now);
@@ -107,11 +111,10 @@ void Supervisor::start_again(const std::string& name, Service& service, const st
 }
 
 void Supervisor::miss(const std::string& name, Service& service, const std::string& what,
-                      clock::WallTime now) {
+                      const std::string& how_often, clock::WallTime now) {
   start_again(name, service, what, RestartPolicy::kHelperPause, now);
   if (std::exchange(service.missed, true) || !hooks_.on_missed) return;
-  hooks_.on_missed(name, what + ", the " + std::to_string(RestartPolicy::kDeathsInARow) +
-                             "th time in a row; the mission goes on without it");
+  hooks_.on_missed(name, what + how_often + "; the mission goes on without it");
 }
 
 void Supervisor::fail(const std::string& name, std::string what, bool bad_input, clock::WallTime now) {

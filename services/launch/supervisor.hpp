@@ -76,7 +76,8 @@ class Supervisor {
   void after_end(const std::string& name, Service&, const Ending&, clock::WallTime now);
   void start_again(const std::string& name, Service&, const std::string& what, clock::WallDuration pause,
                    clock::WallTime now);
-  void miss(const std::string& name, Service&, const std::string& what, clock::WallTime now);
+  void miss(const std::string& name, Service& service, const std::string& what, const std::string& how_often,
+            clock::WallTime now);
   void kill_hung(clock::WallTime now);
   void fail(const std::string& name, std::string what, bool bad_input, clock::WallTime now);
   void wind_up(clock::WallTime now);

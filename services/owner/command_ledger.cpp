@@ -186,9 +186,21 @@ void CommandLedger::restore(const LedgerEntry& entry) {
   if (is_last(entry.word)) end(entry.key, record);
 }
 
+bool CommandLedger::resume(const Request& request, Time accepted) {
+  Record* record = open_record(request.key);
+  const auto is_open = [](const auto& one) { return !is_last(one.second.word); };
+  if (!record || std::ranges::count_if(records_, is_open) > 1) return false;
+  record->robot = request.robot;
+  record->subsystem = request.subsystem;
+  record->latest_end = request.latest_end;
+  record->word = Word{};
+  record->accepted = accepted;
+  return true;
+}
+
 void CommandLedger::end_restored() {
   for (auto& [key, record] : records_) {
-    if (is_last(record.word)) continue;
+    if (record.word) continue;
     record.word = Word{Stage::failed, "owner-restarted", "its owner was started anew while it ran"};
     retention_.ended(key, record.plan);
   }

@@ -45,12 +45,16 @@ CommandServer::CommandServer(Node& node, Driver& driver)
   });
 }
 
-void CommandServer::keep_in(const std::filesystem::path& file) {
+bool CommandServer::keep_in(const std::filesystem::path& file, const std::optional<Resumed>& resumed) {
   file_.emplace(file);
   for (const LedgerEntry& entry : file_->read()) ledger_.restore(entry);
+  const bool goes_on = resumed && ledger_.resume(resumed->request, resumed->accepted);
   ledger_.end_restored();
   begin_file_anew();
+  return goes_on;
 }
+
+void CommandServer::say_again(const CommandKey& key) { send(ledger_.answer(key, node_.now())); }
 
 /// A file that cannot be begun anew just goes on.
 bool CommandServer::begin_file_anew() {
@@ -125,6 +129,7 @@ void CommandServer::receive(const Request& request) {
     send(ledger_.refuse_unleased(request, held.epoch, node_.now()));
     return;
   }
+  if (request.action == Action::query) driver_.asked_about(request.key);
   const Reception reception = ledger_.receive(request, node_.now());
   if (reception.notice) announce(*reception.notice);
   send(reception.ack);

@@ -28,6 +28,14 @@ class Driver {
   /// Ends the command early; `why` is the word to say when it has ended (cancelled on request, stopped, or
   /// failed by an overrun). A driver that cannot break off says refuse_cancel().
   virtual void break_off(const CommandKey&, const Word& why) = 0;
+  /// Is told that somebody has asked what became of the command, before that one is answered.
+  virtual void asked_about(const CommandKey&) {}
+};
+
+/// Is a command of an earlier process that its driver is able to go on with.
+struct Resumed {
+  Request request;
+  temporal::Time accepted{};
 };
 
 /// Lives as long as its node's loop runs; the driver outlives it.
@@ -43,9 +51,12 @@ class CommandServer {
 
   /// Keeps keys, last words and epochs in this file, before anything is done about them, and takes up what an
   /// earlier process of this owner left there: it does not carry out again what that one has begun, and answers
-  /// queries as it would have. To be called before the loop runs. Throws std::runtime_error if the file cannot be
+  /// queries as it would have. What that one had not ended has failed (`owner-restarted`), but for the command that the driver
+  /// resumes. To be called before the loop runs. Returns whether there is such a one. Throws std::runtime_error if the file cannot be
   /// read or written.
-  void keep_in(const std::filesystem::path& file);
+  bool keep_in(const std::filesystem::path& file, const std::optional<Resumed>& resumed = {});
+  /// Says the newest word on a command again: the process that said it may have died before anybody heard.
+  void say_again(const CommandKey&);
 
   /// These return false if the ledger has no such command, or it has ended (command_ledger.hpp).
   bool say(const CommandKey&, Word);

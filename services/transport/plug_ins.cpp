@@ -41,9 +41,9 @@ std::string join(const std::vector<std::string>& names) {
 }
 
 [[noreturn]] void refuse_unknown(std::string_view vendor) {
-  std::string text = "unknown DDS transport \"" + std::string(vendor) +
-                     "\"; installed: " + join(installed_transports()) +
-                     ". Choose one of them with --dds or ROCI_DDS (looked in";
+  std::string text =
+      "unknown DDS transport \"" + std::string(vendor) + "\"; installed: " + join(installed_transports()) +
+      ". Choose one of them with --dds, ROCI_DDS or the `vendor` of the service in mission.yaml (looked in";
   for (const auto& folder : plugin_folders()) text += " " + folder.string();
   throw TransportError(text + ")");
 }

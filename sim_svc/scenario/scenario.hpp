@@ -57,22 +57,28 @@ struct NetworkStimulus {
   double value = 0;
 };
 
-/// Is what the ground sets by an order (docs/orders.md).
-struct ValueStimulus {
+/// What the ground may order; the words are those of `roci order`.
+enum class OrderKind { hold, release, approve, set_value, autonomy, answer, drop, relaunch, safe };
+
+/// Is an order of the ground to an executive (docs/orders.md); which of the members count depends on its kind.
+struct OrderStimulus {
   std::string issuer;
   std::string id;
   std::string robot;  ///< whose executive; empty: the only one
-  std::string timeline;
-  temporal::Value value;
+  OrderKind kind = OrderKind::hold;
+  std::string target{};  ///< an activity, a timeline or a decision
+  temporal::Value value{};
+  std::string choice{};
+  int level = 4;  ///< of autonomy: 1 to 4
 };
 
 /// Is something that the scenario lets happen at a time.
 struct Stimulus {
   temporal::Time at{};
-  std::variant<GoalStimulus, RecallStimulus, HazardStimulus, NetworkStimulus, ValueStimulus,
+  std::variant<GoalStimulus, RecallStimulus, HazardStimulus, NetworkStimulus, OrderStimulus,
                world::Disturbance>
       what;
-  /// Is where a ValueStimulus, ComponentMishap, HollowSuccess, ViewBlock or SoilChange stands in the file.
+  /// Is where an OrderStimulus, ComponentMishap, HollowSuccess, ViewBlock or SoilChange stands in the file.
   std::optional<mission::Entry> entry{};
 };
 

@@ -1,14 +1,13 @@
 #include "sim_svc/scenario/stimuli_file.hpp"
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <fstream>
 #include <set>
 #include <utility>
 
 #include "sim_svc/scenario/body_stimuli_file.hpp"
 #include "sim_svc/scenario/file_values.hpp"
+#include "sim_svc/scenario/orders_file.hpp"
 #include "sim_svc/scenario/soil_file.hpp"
 
 namespace roci::sim::scenario {
@@ -99,27 +98,6 @@ NetworkStimulus read_parameter(const Entry& entry) {
           entry.at("name").text(),           entry.at("value").number()};
 }
 
-// As `roci order set` reads it: a truth, a number, or the name of a state.
-ValueStimulus read_set(const Entry& entry) {
-  entry.allow_only({"issuer", "id", "robot", "timeline", "value"});
-  ValueStimulus out{entry.text_or("issuer", "ground"),
-                    entry.at("id").text(),
-                    entry.text_or("robot", ""),
-                    entry.at("timeline").text(),
-                    {}};
-  const std::string text = entry.at("value").text();
-  double number = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (text == "true" || text == "false") {
-    out.value = text == "true";
-  } else if (error == std::errc{} && end == text.data() + text.size() && std::isfinite(number)) {
-    out.value = number;
-  } else {
-    out.value = temporal::state(text);
-  }
-  return out;
-}
-
 HazardStimulus read_hazard(const Entry& entry) {
   entry.allow_only({"id", "x", "y", "radius"});
   return {entry.at("id").text(),
@@ -208,14 +186,14 @@ Stimulus read_stimulus(const Entry& entry, const Roster& roster) {
                     "battery_to_j", "module_fails", "slot_blocked", "slow_joint",
                     "eclipse",      "network",      "parameter",    "trench_collapses",
                     "hollow",       "surroundings", "heat",         "set",
-                    "rate",         "blocked_view", "soil"});
+                    "rate",         "blocked_view", "soil",         "order"});
   const std::size_t frame = entry.find("robot") ? 2 : 1;
   if (entry.fields().size() != frame + 1) {
     entry.fail(
         "a stimulus is at_s (and robot) and one of goal, recall, hazard, fault, rock, battery_loss_j, "
         "battery_to_j, "
         "module_fails, slot_blocked, slow_joint, eclipse, network, parameter, trench_collapses, hollow, "
-        "surroundings, heat, rate, blocked_view, set, soil; split it into several");
+        "surroundings, heat, rate, blocked_view, set, order, soil; split it into several");
   }
   Stimulus out;
   out.at = time_of(entry.at("at_s"));
@@ -227,6 +205,10 @@ Stimulus read_stimulus(const Entry& entry, const Roster& roster) {
   if (const auto value = entry.find("set")) {
     out.what = read_set(*value);
     out.entry = *value;
+  }
+  if (const auto order = entry.find("order")) {
+    out.what = read_order(*order);
+    out.entry = *order;
   }
   if (const auto fault = entry.find("fault")) {
     out.what = Disturbance{read_fault(*fault, robot_of(entry, roster), out.at)};

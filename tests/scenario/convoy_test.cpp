@@ -17,8 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
-using ::testing::AllOf, ::testing::Contains, ::testing::ElementsAre, ::testing::HasSubstr,
-    ::testing::StartsWith;
+using ::testing::Contains, ::testing::ElementsAre, ::testing::HasSubstr, ::testing::StartsWith;
 
 constexpr char kMission[] = ROCI_SOURCE_DIR "/tests/missions/convoy";
 
@@ -54,6 +53,14 @@ TEST_P(Convoy, ARepairIsInvisibleAbove) {
 
 TEST_P(Convoy, WhatCannotBeRepairedGoesUp) { expect_as_listed("escalated"); }
 
+// R149, and trial_stopped of the paper: the running step is stopped by its own executive, both rovers rest, and the plan is launched
+// again without the primary's last step, until the ground lets the robots plan anew.
+TEST_P(Convoy, TheGroundStopsThePlanAndLaunchesItAgain) {
+  expect_as_listed("trial_stopped");
+  EXPECT_THAT(deeds_of(folder_), ElementsAre("drive w1", "press w1", "drive w1", "drive w2", "drive w2",
+                                             "press w2", "drive w2"));
+}
+
 INSTANTIATE_TEST_SUITE_P(Transports, Convoy, ::testing::Values("inproc", "fastdds", "cyclonedds", "mixed"),
                          [](const auto& dds) { return std::string(dds.param); });
 
@@ -81,20 +88,19 @@ TEST_F(ConvoyReport, ThePlanThatBrokeIsToldAsItWasExecuted) {
   EXPECT_FALSE(plan["activities"][1].contains("started_s"));
 }
 
-// Two owners of one subsystem are refused before anything flies: by file and line, each with the name of the other.
-TEST_F(ConvoyReport, TwoDedicatedExecutivesOfOneTimelineDoNotStart) {
-  const fs::path mission = folder_ / "convoy";
-  fs::create_directories(folder_);
-  fs::copy(kMission, mission, fs::copy_options::recursive);
-  edit(mission / "mission.yaml", "settings: primary.yaml", "settings: scout.yaml");
-  for (const char* dds : {"inproc", "cyclonedds"}) {
-    const Ended ended = run("timeout 60 roci-launch " + mission.string() + " --headless --speed max --dds " +
-                            dds + " --run-folder " + (folder_ / dds).string() + " 2>&1");
-    EXPECT_EQ(ended.exit_code, 2) << ended.output;
-    EXPECT_THAT(ended.output,
-                AllOf(HasSubstr("scout.yaml:5:"), HasSubstr("the timeline 'scout.locomotion' of"),
-                      HasSubstr("a subsystem has one owner")));
-  }
+// What was stopped comes back, too.
+TEST_F(ConvoyReport, ThePlanThatWasStoppedIsToldAsItWasExecuted) {
+  const Ended ended =
+      run(ROCI_SOURCE_DIR "/tests/scenario/executed_plan.sh \"$(dirname \"$(command -v roci-launch)\")\" " +
+          std::string(kMission) + " cyclonedds " + folder_.string() + " --scenario trial_stopped --speed 30");
+  const json plan = json::parse(ended.output, nullptr, false);
+  ASSERT_TRUE(plan.is_object()) << ended.output;
+  EXPECT_EQ(plan["outcome"], "cancelled");
+  ASSERT_EQ(plan["activities"].size(), 4U);
+  EXPECT_EQ(plan["activities"][1]["state"], "succeeded");
+  EXPECT_EQ(plan["activities"][2]["state"], "cancelled") << "the scout's second stretch";
+  EXPECT_EQ(plan["activities"][2]["ended_s"], 190);
+  EXPECT_FALSE(plan["activities"][3].contains("started_s"));
 }
 
 class ConvoyKills : public ::testing::TestWithParam<const char*> {

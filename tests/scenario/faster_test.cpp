@@ -44,8 +44,9 @@ TEST_P(Faster, FliesAsListed) {
   EXPECT_EQ(traces.emplace(scenario, trace).first->second, trace);
 }
 
-constexpr const char* kScenarios[] = {"trial",      "marker_not_seen", "scout_no_path", "primary_blocked",
-                                      "scout_lost", "no_path",         "goal_change"};
+constexpr const char* kScenarios[] = {"trial",         "trial_stopped",   "fixed_times", "marker_not_seen",
+                                      "scout_no_path", "primary_blocked", "scout_lost",  "no_path",
+                                      "goal_change",   "repair_overrun",  "radio_loss",  "radio_cut"};
 #ifdef ROCI_ALL_TRANSPORTS
 constexpr const char* kTransports[] = {"inproc", "fastdds", "cyclonedds", "mixed"};
 #else

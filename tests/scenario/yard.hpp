@@ -13,6 +13,7 @@
 #include "services/publisher.hpp"
 #include "services/rpc.hpp"
 #include "services/service.hpp"
+#include "services/topics.hpp"
 #include "tests/unit/services/sim_run.hpp"
 
 namespace roci::scenario {
@@ -53,6 +54,17 @@ class Yard {
   /// `vendors` are those of sim_svc, primary.path, scout.path and the driver, one after the other.
   Yard(const std::string& scenario, std::vector<std::string> vendors, Script script, std::uint64_t seed = 1);
   ~Yard();
+
+  /// Hands all that both rovers tell to a view, which takes it as a console's does and must outlive the run.
+  template <class View>
+  void watch(View& view) {
+    namespace topics = services::topics;
+    const auto take = [&view](const auto& sample) { view.take(sample); };
+    services::subscribe(*driver_, topics::observation, take);
+    services::subscribe(*driver_, topics::known_map, take);
+    services::subscribe(*driver_, topics::command, take);
+    services::subscribe(*driver_, topics::command_ack, take);
+  }
 
   void run();
 

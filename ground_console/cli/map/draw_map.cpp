@@ -110,13 +110,6 @@ std::string number_text(double number) {
   return text;
 }
 
-// 1, 2 or 5 times a power of ten, at most `length`.
-double round_length(double length) {
-  const double power = std::pow(10.0, std::floor(std::log10(length)));
-  const double lead = length / power;
-  return (lead >= 5 ? 5 : lead >= 2 ? 2 : 1) * power;
-}
-
 void draw_axes(const Scale& scale, Picture& picture) {
   const Frame& f = scale.frame();
   const terrain::Grid& grid = scale.grid();

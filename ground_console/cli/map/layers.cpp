@@ -72,6 +72,12 @@ void draw_rocks(const terrain::Site& site, const Scale& scale, Picture& picture)
 
 }  // namespace
 
+double round_length(double length) {
+  const double power = std::pow(10.0, std::floor(std::log10(length)));
+  const double lead = length / power;
+  return (lead >= 5 ? 5 : lead >= 2 ? 2 : 1) * power;
+}
+
 void draw_ground(const terrain::Site& site, const Scale& scale, Picture& picture) {
   draw_shade(site, scale, picture);
   draw_rocks(site, scale, picture);

@@ -46,6 +46,9 @@ void for_each_pixel(const Frame& frame, Visit visit) {
 /// Tells whether a pixel lies on a stripe of a hatched area.
 inline bool hatched(int x, int y) { return (x + y) % 10 < 3; }
 
+/// Returns 1, 2 or 5 times a power of ten, at most `length`.
+double round_length(double length);
+
 /// Draws the ground, what is unknown of it, and its rocks.
 void draw_ground(const terrain::Site& site, const Scale& scale, Picture& picture);
 /// Draws the keep-out zones.

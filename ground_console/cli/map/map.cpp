@@ -1,12 +1,6 @@
 #include "ground_console/cli/map/map.hpp"
 
-#include <fcntl.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
@@ -17,11 +11,15 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "core/mission/entry.hpp"
+#include "core/mission/mission_file.hpp"
+#include "core/mission/service_list.hpp"
 #include "core/terrain/map_error.hpp"
 #include "ground_console/cli/map/draw_map.hpp"
 #include "ground_console/cli/map/png_file.hpp"
+#include "ground_console/cli/map/run_folder.hpp"
+#include "ground_console/cli/map/run_picture.hpp"
 #include "ground_console/cli/report.hpp"
+#include "ground_console/cli/timelines.hpp"
 #include "ground_console/cli/verbs.hpp"
 #include "services/process/mission_folder.hpp"
 
@@ -32,60 +30,6 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 constexpr const char* kPathPlanner = "pathplan_svc";
-
-// Returns what the program beside this one prints, or nothing if it fails: it reads journals, the ground tool does not.
-std::optional<std::string> trace_of(const fs::path& run) {
-  const fs::path program = fs::read_symlink("/proc/self/exe").parent_path() / "roci-trace";
-  std::array<int, 2> pipe_ends{};
-  if (pipe2(pipe_ends.data(), O_CLOEXEC) != 0) return std::nullopt;
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_adddup2(&actions, pipe_ends[1], STDOUT_FILENO);
-  posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
-  std::string name = program.string(), verb = "print", folder = run.string();
-  std::array<char*, 4> words{name.data(), verb.data(), folder.data(), nullptr};
-  pid_t pid = 0;
-  const int failed = posix_spawn(&pid, name.c_str(), &actions, nullptr, words.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
-  close(pipe_ends[1]);
-  std::string out;
-  std::array<char, 65536> buffer{};
-  for (ssize_t count = 0; failed == 0 && (count = read(pipe_ends[0], buffer.data(), buffer.size())) > 0;)
-    out.append(buffer.data(), static_cast<std::size_t>(count));
-  close(pipe_ends[0]);
-  int status = 1;
-  if (failed != 0 || waitpid(pid, &status, 0) != pid || status != 0) return std::nullopt;
-  return out;
-}
-
-json read_json(const fs::path& file) {
-  std::ifstream in(file);
-  return in ? json::parse(in, nullptr, false) : json();
-}
-
-// What a run folder says of its mission: the launcher's first argument is the mission folder.
-fs::path mission_of(const fs::path& run) {
-  const json launch = read_json(run / "launch.json");
-  if (launch.is_object() && launch.contains("arguments") && launch["arguments"].is_array() &&
-      !launch["arguments"].empty() && launch["arguments"][0].is_string())
-    return launch["arguments"][0].get<std::string>();
-  throw std::invalid_argument(run.string() +
-                              " is no run folder that names its mission; see roci runs, or add --mission");
-}
-
-std::string words_of_summary(const fs::path& run) {
-  const json summary = read_json(run / "summary.json");
-  if (!summary.is_object()) return run.filename().string();
-  const auto text = [&](const char* key) {
-    return summary.contains(key) && summary[key].is_string() ? summary[key].get<std::string>() : "";
-  };
-  std::string out = "scenario " + text("scenario");
-  if (summary.contains("seed") && summary["seed"].is_number_integer())
-    out += ", seed " + summary["seed"].dump();
-  if (summary.contains("sim_s") && summary["sim_s"].is_number())
-    out += ", flown " + lib::clock_text(static_cast<std::int64_t>(summary["sim_s"].get<double>() * 1e6));
-  return out + ", " + text("result");
-}
 
 std::optional<double> number_of(const std::vector<v1::Property>& arguments, const std::string& name) {
   for (const v1::Property& argument : arguments) {
@@ -149,112 +93,171 @@ void add_view(const lib::MissionView& view, MissionMap& map) {
     if (goal == nullptr) continue;
     if (const auto at = point_of(goal->arguments())) add_place(map.places, {key.second, *at});
   }
-  map.subtitle = "now " + lib::clock_text(view.now_us());
 }
 
-std::optional<double> number_at(const json& object, const char* key) {
-  const bool there = object.is_object() && object.contains(key) && object[key].is_number();
-  return there ? std::optional(object[key].get<double>()) : std::nullopt;
-}
-
-// Adds the obstacles that path planners knew when the run ended: NAME.hazards in its folder (docs/formats.md).
-void add_hazards(const fs::path& run, MissionMap& map) {
-  if (!fs::is_directory(run)) return;
-  for (const auto& file : fs::directory_iterator(run)) {
-    if (file.path().extension() != ".hazards") continue;
-    const json hazards = read_json(file.path());
-    if (!hazards.is_array()) continue;
-    for (const json& hazard : hazards) {
-      const auto x = number_at(hazard, "x_m"), y = number_at(hazard, "y_m"),
-                 radius = number_at(hazard, "radius_m");
-      if (!x || !y || !radius || *radius < 0) continue;
-      const Circle circle{{*x, *y}, *radius};
-      if (std::ranges::find(map.hazards, circle) == map.hazards.end()) map.hazards.push_back(circle);
+// What the maps of robots have now, as their path planners tell it.
+void add_known(const lib::MissionView& view, MissionMap& map) {
+  for (const auto& [planner, known] : view.maps()) {
+    const auto own = map.known.find(known.header().robot());
+    if (own == map.known.end()) continue;
+    for (const v1::MapObstacle& one : known.obstacles()) {
+      const Circle disc{{one.x_m(), one.y_m()}, one.radius_m()};
+      const bool usable = std::isfinite(disc.centre.x) && std::isfinite(disc.centre.y) &&
+                          std::isfinite(disc.radius) && disc.radius >= 0;
+      if (!one.cleared() && usable)
+        own->second.push_back({disc, lib::name_of(one.obstacle_kind()), one.found_by(), one.id()});
     }
   }
 }
 
-MissionMap map_of_live_run(const services::process::ConnectionFlags& flags, const std::string& mission) {
+// What its plan is still to bring about.
+void add_planned_course(const lib::MissionView& view, Course& course) {
+  for (const auto& [timeline, changes] : timelines_of(view, {})) {
+    std::vector<const temporal::ProjectedChange*> ahead;
+    for (const temporal::ProjectedChange& change : changes)
+      if (change.kind == temporal::ProjectionKind::projected && change.time.count() > view.now_us() &&
+          std::holds_alternative<temporal::State>(change.value))
+        ahead.push_back(&change);
+    for (std::size_t i = 0; i < ahead.size(); ++i) {
+      const std::int64_t from = ahead[i]->time.count();
+      const std::int64_t to = i + 1 < ahead.size() ? ahead[i + 1]->time.count() : from;
+      add_planned(timeline, {temporal::to_text(ahead[i]->value), from, to, true}, course);
+    }
+  }
+}
+
+// What the mission's files say; a mission without ground is drawn where timelines are asked for, too.
+RunPicture picture_of_mission(const fs::path& mission, const MapArguments& arguments) {
+  const mission::Entry root = mission::load_mission_file(mission);
+  RunPicture out{root.text_or("name", "mission")};
+  if (root.find("site") || !arguments.png.empty()) out.map = read_mission_map(mission);
+  if (!fs::is_directory(mission)) return out;
+  const mission::ServiceList services = mission::load_service_list_if_any(mission);
+  out.robots = services.robots;
+  if (out.map)
+    for (const auto& [planner, robot] : map_owners(services)) out.map->known[robot];
+  return out;
+}
+
+void add_trace(const std::string& trace, RunPicture& picture) {
+  std::istringstream lines(trace), again(trace);
+  if (picture.map) add_trace(lines, *picture.map);
+  picture.course = course_of(again);
+}
+
+RunPicture picture_of_live_run(const services::process::ConnectionFlags& flags,
+                               const MapArguments& arguments) {
   const auto run = lib::local_run(flags);
   const services::process::Connection connection = lib::choose_run(flags);
-  if (mission.empty() && (!run || run->mission.empty()))
+  if (arguments.mission.empty() && (!run || run->mission.empty()))
     throw std::invalid_argument("the mission's files are not on this machine; add --mission FOLDER");
-  MissionMap map =
-      read_mission_map(mission.empty() ? run->mission : services::process::mission_folder(mission));
+  RunPicture out = picture_of_mission(
+      arguments.mission.empty() ? run->mission : services::process::mission_folder(arguments.mission),
+      arguments);
   lib::Client client(connection);
   if (!client.wait_for_mission(kAnswerLimit))
     throw std::runtime_error("no mission answered; is it running there (roci status)?");
   client.wait([&] { return client.view().plan() != nullptr; }, std::chrono::milliseconds(1000));
-  client.wait([] { return false; }, std::chrono::milliseconds(300));
+  client.settle();
+  out.subtitle = "now " + lib::clock_text(client.view().now_us());
   // The journal of a run on this machine has the way from its start; what came down begins when this tool joined.
   const auto trace = run ? trace_of(run->run_folder) : std::nullopt;
-  if (trace) {
-    std::istringstream lines(*trace);
-    add_trace(lines, map);
-    map.planned_legs.clear();
-  }
+  if (trace) add_trace(*trace, out);
+  add_planned_course(client.view(), out.course);
+  if (!out.map) return out;
+  if (trace) out.map->planned_legs.clear();
   for (const auto& [robot, way] : client.view().ways()) {
-    Way& driven = map.driven[robot];
+    Way& driven = out.map->driven[robot];
     for (const lib::Place& place : way) {
       if (driven.empty() || (driven.back() != terrain::Point{place.x_m, place.y_m} && !trace))
         driven.push_back({place.x_m, place.y_m});
     }
   }
-  add_view(client.view(), map);
-  add_planned(client, map);
-  return map;
+  add_view(client.view(), *out.map);
+  add_known(client.view(), *out.map);
+  add_planned(client, *out.map);
+  return out;
 }
 
-MissionMap map_of(const MapArguments& arguments, const services::process::ConnectionFlags& flags) {
+RunPicture picture_of(const MapArguments& arguments, const services::process::ConnectionFlags& flags) {
   if (!arguments.run.empty()) {
     const fs::path run = fs::absolute(arguments.run);
-    MissionMap map = read_mission_map(
-        arguments.mission.empty() ? mission_of(run) : services::process::mission_folder(arguments.mission));
+    const fs::path mission =
+        arguments.mission.empty() ? mission_of(run) : services::process::mission_folder(arguments.mission);
+    RunPicture out = picture_of_mission(mission, arguments);
     const auto trace = trace_of(run);
     if (!trace)
       throw std::invalid_argument(run.string() +
                                   ": roci-trace cannot read this run; roci-trace print FOLDER says why");
-    std::istringstream lines(*trace);
-    add_trace(lines, map);
-    add_hazards(run, map);
-    map.subtitle = words_of_summary(run);
-    return map;
+    add_trace(*trace, out);
+    if (out.map && fs::is_directory(mission))
+      add_hazards(run, map_owners(mission::load_service_list_if_any(mission)), *out.map);
+    out.subtitle = words_of_summary(run);
+    return out;
   }
   const bool says_where_to_join =
       flags.domain || flags.dds || flags.address || flags.peers || flags.network || flags.secure;
   if (!arguments.mission.empty() && !says_where_to_join) {
-    MissionMap map = read_mission_map(services::process::mission_folder(arguments.mission));
-    map.subtitle = "the mission, no run";
-    return map;
+    RunPicture out = picture_of_mission(services::process::mission_folder(arguments.mission), arguments);
+    out.subtitle = "the mission, no run";
+    return out;
   }
-  return map_of_live_run(flags, arguments.mission);
+  return picture_of_live_run(flags, arguments);
 }
 
-void print(const std::string& file, const MissionMap& map, const Picture& picture, bool as_json) {
-  if (!as_json) {
-    std::cout << file << ": " << picture.width() << " x " << picture.height() << " pixels, "
-              << map.places.size() << " places, " << map.hazards.size() << " hazards\n";
-    return;
-  }
+json counts_of(const std::string& file, const MissionMap& map) {
   json driven = json::object();
   for (const auto& [robot, way] : map.driven) driven[robot] = way.size();
-  std::cout << json_text({{"file", file},
-                          {"width", picture.width()},
-                          {"height", picture.height()},
-                          {"places", map.places.size()},
-                          {"hazards", map.hazards.size()},
-                          {"planned", map.planned.size() + map.planned_legs.size()},
-                          {"driven", driven}})
-            << "\n";
+  return {{"file", file},
+          {"places", map.places.size()},
+          {"hazards", map.hazards.size()},
+          {"planned", map.planned.size() + map.planned_legs.size()},
+          {"driven", driven}};
+}
+
+void write_map(const std::string& file, const MissionMap& map, bool as_json) {
+  const Picture picture = draw_map(map);
+  write_png(picture, file);
+  if (as_json) {
+    json told = counts_of(file, map);
+    told["width"] = picture.width();
+    told["height"] = picture.height();
+    std::cout << json_text(told) << "\n";
+  } else {
+    std::cout << file << ": " << picture.width() << " x " << picture.height() << " pixels, "
+              << map.places.size() << " places, " << map.hazards.size() << " hazards\n";
+  }
+}
+
+void write_svg(const std::string& file, const RunPicture& picture, bool as_json) {
+  std::ofstream out(file, std::ios::binary);
+  if (!(out << to_svg(picture) << std::flush))
+    throw std::runtime_error(file + ": cannot be written; check the folder and its permissions");
+  if (as_json) {
+    json told = picture.map ? counts_of(file, *picture.map) : json{{"file", file}};
+    told["timelines"] = picture.course.rows.size();
+    told["plans"] = picture.course.plans.size();
+    told["known"] = json::object();
+    if (picture.map)
+      for (const auto& [robot, obstacles] : picture.map->known) told["known"][robot] = obstacles.size();
+    std::cout << json_text(told) << "\n";
+  } else {
+    std::cout << file << ": " << picture.course.rows.size() << " timelines, " << picture.course.plans.size()
+              << " plans" << (picture.map ? "" : ", no ground") << "\n";
+  }
 }
 
 }  // namespace
 
 int show_map(const MapArguments& arguments, const services::process::ConnectionFlags& connection,
              bool as_json) {
-  std::optional<MissionMap> map;
+  if (arguments.png.empty() && arguments.svg.empty()) {
+    std::cerr << "roci: name the file to write: roci map --png FILE or --svg FILE\n";
+    return kBadUsage;
+  }
+  std::optional<RunPicture> picture;
   try {
-    map = map_of(arguments, connection);
+    picture = picture_of(arguments, connection);
   } catch (const mission::FileError& error) {
     std::cerr << "roci: " << error.what() << "\n";
     return kBadUsage;
@@ -262,14 +265,21 @@ int show_map(const MapArguments& arguments, const services::process::ConnectionF
     std::cerr << "roci: " << error.what() << "\n";
     return kBadUsage;
   }
-  const Picture picture = draw_map(*map);
+  if (picture->map) {
+    picture->map->subtitle = picture->subtitle;
+    std::vector<std::string>& robots = picture->robots;
+    for (const auto& [robot, way] : picture->map->driven)
+      if (std::ranges::find(robots, robot) == robots.end()) robots.push_back(robot);
+  }
+  join_families(picture->course);
+  sort_by_robot(picture->robots, picture->course);
   try {
-    write_png(picture, arguments.png);
+    if (!arguments.png.empty()) write_map(arguments.png, *picture->map, as_json);
+    if (!arguments.svg.empty()) write_svg(arguments.svg, *picture, as_json);
   } catch (const std::runtime_error& error) {
     std::cerr << "roci: " << error.what() << "\n";
     return kRefused;
   }
-  print(arguments.png, *map, picture, as_json);
   return kDone;
 }
 

@@ -23,6 +23,14 @@ struct Circle {
   bool operator==(const Circle&) const = default;
 };
 
+/// Is what a robot's own map has beyond the loaded one.
+struct KnownObstacle {
+  Circle disc;
+  std::string kind;  ///< "rock", "soil"; empty: nobody says
+  std::string found_by;
+  std::string id;
+};
+
 using Way = std::vector<terrain::Point>;
 
 struct MissionMap {
@@ -31,6 +39,7 @@ struct MissionMap {
   std::string subtitle{};  ///< says which run and when
   std::vector<NamedPlace> places{};
   std::vector<Circle> hazards{};
+  std::map<std::string, std::vector<KnownObstacle>> known{};  ///< by robot; of robots with a map of their own
   std::vector<Circle> keep_out_discs{};
   std::vector<terrain::Polygon> keep_out{};
   std::vector<Way> planned{};           ///< as the path planner leads

@@ -1,6 +1,8 @@
 #include "ground_console/cli/outlook/svg.hpp"
 
 #include <array>
+#include <boost/archive/iterators/base64_from_binary.hpp>
+#include <boost/archive/iterators/transform_width.hpp>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
@@ -103,10 +105,14 @@ void Svg::polygon(const std::vector<Point>& points, const Ink& ink) {
 }
 
 void Svg::text(double x, double y, std::string_view text, const Letters& letters) {
-  body_ += "<text x=\"" + number(x) + "\" y=\"" + number(y) + "\" font-size=\"" + number(letters.size) +
-           "\" fill=\"" + letters.colour + "\"" +
-           (letters.anchor == "start" ? "" : " text-anchor=\"" + letters.anchor + "\"") +
-           (letters.bold ? " font-weight=\"bold\"" : "") + ">" + escaped(text) + "</text>\n";
+  body_ +=
+      "<text x=\"" + number(x) + "\" y=\"" + number(y) + "\" font-size=\"" + number(letters.size) +
+      "\" fill=\"" + letters.colour + "\"" +
+      (letters.anchor == "start" ? "" : " text-anchor=\"" + letters.anchor + "\"") +
+      (letters.bold ? " font-weight=\"bold\"" : "") +
+      (letters.halo ? " paint-order=\"stroke\" stroke=\"#ffffff\" stroke-width=\"3\" stroke-opacity=\"0.75\""
+                    : "") +
+      ">" + escaped(text) + "</text>\n";
 }
 
 void Svg::text_within(double x, double y, double width, std::string_view all, const Letters& letters) {
@@ -117,6 +123,23 @@ void Svg::text_within(double x, double y, double width, std::string_view all, co
   }
   if (cut.size() < 3 && cut.size() < all.size()) return;  // nobody reads that
   text(x, y, cut.size() < all.size() ? cut + "…" : cut, letters);
+}
+
+void Svg::png(double x, double y, double width, double height, const std::vector<std::uint8_t>& bytes) {
+  using Base64 = boost::archive::iterators::base64_from_binary<
+      boost::archive::iterators::transform_width<std::vector<std::uint8_t>::const_iterator, 6, 8>>;
+  std::string letters(Base64(bytes.begin()), Base64(bytes.end()));
+  letters.append((3 - bytes.size() % 3) % 3, '=');
+  body_ += "<image x=\"" + number(x) + "\" y=\"" + number(y) + "\" width=\"" + number(width) +
+           "\" height=\"" + number(height) + "\" preserveAspectRatio=\"none\" href=\"data:image/png;base64," +
+           letters + "\"/>\n";
+}
+
+void Svg::clip(double x, double y, double width, double height) {
+  const std::string name = "clip" + std::to_string(++clips_);
+  body_ += "<clipPath id=\"" + name + "\">";
+  rectangle(x, y, width, height, {.fill = "black"});
+  body_ += "</clipPath>\n<g clip-path=\"url(#" + name + ")\">\n";
 }
 
 void Svg::open(std::string_view tip) { body_ += "<g><title>" + escaped(tip) + "</title>\n"; }

@@ -1,6 +1,8 @@
 // A picture as an SVG document: shapes and texts in the order in which they are drawn.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -21,6 +23,7 @@ struct Letters {
   std::string colour = "#1d2733";
   std::string anchor = "start";  ///< or "middle", "end"
   bool bold = false;
+  bool halo = false;  ///< they stand on a light rim
 };
 
 class Svg {
@@ -36,6 +39,10 @@ class Svg {
   void text(double x, double y, std::string_view text, const Letters& letters = {});
   /// The same, cut with "…" where it would be wider.
   void text_within(double x, double y, double width, std::string_view text, const Letters& letters = {});
+  /// A picture of pixels, as the bytes of a PNG file, stretched over this rectangle.
+  void png(double x, double y, double width, double height, const std::vector<std::uint8_t>& bytes);
+  /// What is drawn until close() is cut at this rectangle. Close it like open().
+  void clip(double x, double y, double width, double height);
   /// Shown by a browser where the pointer rests: of all that is drawn until close().
   void open(std::string_view tip);
   void close();
@@ -45,6 +52,7 @@ class Svg {
 
  private:
   std::string body_;
+  std::size_t clips_ = 0;
 };
 
 /// Returns about how wide a text is in pixels.

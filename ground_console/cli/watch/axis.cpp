@@ -3,11 +3,22 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ground_console/cli/plan_table.hpp"
+
 namespace roci::console::cli::watch {
+
+namespace {
+
+constexpr std::int64_t kFarthest = std::int64_t{1} << 60;  // beyond, a time is no bound
+
+}  // namespace
 
 Span span_of(const v1::PlanActivity& activity, const v1::StepStatus* step, std::int64_t now) {
   if (step == nullptr) return {now, now};
   const bool begun = step->started_us() != kNotYet;
+  const bool skipped = !begun && step->state() > v1::ACTIVITY_RUNNING;
+  if (skipped || (!begun && (step->earliest_start_us() < 0 || step->earliest_start_us() > kFarthest)))
+    return {now, now};
   const std::int64_t from = begun ? step->started_us() : step->earliest_start_us();
   if (step->ended_us() != kNotYet) return {from, step->ended_us()};
   return {from, std::max(from + activity.duration_lower_us(), begun ? now : from)};
@@ -16,8 +27,9 @@ Span span_of(const v1::PlanActivity& activity, const v1::StepStatus* step, std::
 Axis::Axis(const lib::MissionView& view, const Rectangle& area)
     : first_(view.now_us()),
       last_(view.now_us()),
-      column_(area.column + kLabel),
-      width_(area.width - kLabel) {
+      label_(has_levels(*view.plan()) ? std::max(kLabel, area.width * 2 / 5) : kLabel),
+      column_(area.column + label_),
+      width_(area.width - label_) {
   for (const v1::PlanActivity& activity : view.plan()->activities()) {
     const Span span = span_of(activity, view.step(activity.id()), view.now_us());
     first_ = std::min(first_, span.from);

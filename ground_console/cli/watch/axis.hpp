@@ -13,19 +13,22 @@ struct Span {
   std::int64_t to;
 };
 
-/// When an activity was, is, or is expected to be; `step` is null while nothing is known of it.
+/// When an activity was, is, or is expected to be; `step` is null while nothing is known of it. Of what was skipped and never began: now.
 Span span_of(const v1::PlanActivity& activity, const v1::StepStatus* step, std::int64_t now);
 
 /// From the first start to the last end of the view's plan, which must be there, to the right of the labels.
 class Axis {
  public:
-  static constexpr std::size_t kLabel = 36;  ///< columns
+  static constexpr std::size_t kLabel = 36;  ///< columns, at least
   static constexpr std::size_t kLeast = kLabel + 24;
 
   /// `area` is at least kLeast wide.
   Axis(const lib::MissionView& view, const Rectangle& area);
 
   std::size_t column() const { return column_; }
+  std::size_t label() const {
+    return label_;
+  }  ///< columns to the left of it; more where a plan has levels and the area is wide
   std::size_t width() const { return width_; }
   std::size_t column_of(std::int64_t time) const;
   std::int64_t time_at(std::size_t column) const;  ///< the latest that column_of() puts there
@@ -36,6 +39,7 @@ class Axis {
  private:
   std::int64_t first_;
   std::int64_t last_;
+  std::size_t label_;
   std::size_t column_;
   std::size_t width_;
 };

@@ -30,10 +30,10 @@ void draw_level(const Level& level, std::int64_t now, const Axis& axis, std::siz
     most = std::max(most, value);
   }
   const double end = level.changes.empty() ? 0 : level.changes.back().second;
-  const std::size_t label = axis.column() - Axis::kLabel;
+  const std::size_t label = axis.column() - axis.label();
   canvas.put(row, label + 4,
              level.name + " " + lib::value_text(value_at(level, now)) + " → " + lib::value_text(end),
-             Style::plain, Axis::kLabel - 5);
+             Style::plain, axis.label() - 5);
   for (std::size_t column = axis.column(); column < axis.column() + axis.width(); ++column) {
     const std::int64_t time = axis.time_at(column);
     const double share = most > least ? (value_at(level, time) - least) / (most - least) : 0;

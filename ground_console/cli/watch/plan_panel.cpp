@@ -64,7 +64,7 @@ void draw_plan(const lib::MissionView& view, const Rectangle& area, Canvas& canv
   if (shown.gone + shown.more > 0) {
     std::string left_out = shown.gone > 0 ? std::to_string(shown.gone) + " over" : "";
     if (shown.more > 0) left_out += (left_out.empty() ? "" : ", ") + std::to_string(shown.more) + " more";
-    canvas.put(area.row, area.column + 10, "(" + left_out + ")", Style::dim, Axis::kLabel - 11);
+    canvas.put(area.row, area.column + 10, "(" + left_out + ")", Style::dim, axis.label() - 11);
   }
   for (const PlanRow& one : shown.rows) {
     const v1::PlanActivity& activity = *one.activity;
@@ -72,7 +72,7 @@ void draw_plan(const lib::MissionView& view, const Rectangle& area, Canvas& canv
     const StepLook look = step_look(step);
     canvas.put(row, area.column + 2, look.sign, look.style);
     const std::string folded = one.folded == 0 ? "" : " +" + std::to_string(one.folded);
-    const std::size_t room = Axis::kLabel - 5 - folded.size();
+    const std::size_t room = axis.label() - 5 - folded.size();
     const std::size_t end = canvas.put(row, area.column + 4, label_of(one), look.style, room);
     canvas.put(row, end, folded, Style::dim);
     axis.draw(row, {view.now_us(), view.now_us()}, "│", Style::dim, canvas);

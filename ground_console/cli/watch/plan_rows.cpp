@@ -12,9 +12,9 @@ namespace {
 enum class Course { waiting, mixed, over };
 
 Course course_of(const v1::StepStatus* step) {
-  if (step == nullptr || (step->started_us() == kNotYet && step->ended_us() == kNotYet))
-    return Course::waiting;
-  return step->ended_us() == kNotYet ? Course::mixed : Course::over;
+  if (step == nullptr || step->state() == v1::ACTIVITY_WAITING) return Course::waiting;
+  const bool runs = step->state() == v1::ACTIVITY_DISPATCHED || step->state() == v1::ACTIVITY_RUNNING;
+  return runs ? Course::mixed : Course::over;
 }
 
 // Those below a row stand right behind it, deeper in.

@@ -46,13 +46,13 @@ struct Line {
   Style style = Style::plain;
 };
 
-std::vector<Line> lines_of(const Robot& robot, std::size_t width) {
+std::vector<Line> lines_of(const lib::MissionView& view, const Robot& robot, std::size_t width) {
   std::vector<Line> out{
       {(robot.place ? "▲ " : "") + robot.name + (robot.doing.empty() ? "" : "   " + robot.doing),
        Style::title}};
   if (const std::string where = where_text(robot); !where.empty()) out.push_back({where});
   std::vector<std::string> states;
-  for (const auto& [name, value] : robot.states) states.push_back(name + " " + value);
+  for (const auto& [name, value] : states_by_family(view, robot)) states.push_back(name + " " + value);
   std::vector<std::string> rows = in_rows(states, width, "   ");
   if (rows.size() > kMostStates) {
     rows.resize(kMostStates);
@@ -80,7 +80,7 @@ std::size_t draw_robots(const lib::MissionView& view, const std::vector<Robot>& 
   std::size_t used = 0;
   for (std::size_t i = 0; i < robots.size(); ++i) {
     std::size_t row = 0;
-    for (const Line& line : lines_of(robots[i], width)) {
+    for (const Line& line : lines_of(view, robots[i], width)) {
       if (row >= area.height) break;
       canvas.put(area.row + row++, area.column + i * step, line.text, line.style, width);
     }

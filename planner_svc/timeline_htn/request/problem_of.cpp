@@ -144,24 +144,16 @@ void put_relations(const Request& request, Model& model) {
 
 void put_states(const Request& request, Model& model, std::vector<Misfit>& misfits) {
   for (Index c = 0; c < model.components.size(); ++c) {
-    std::string seen;
-    bool found = false;
-    for (const model::State& state : model.components[c].states) {
-      if (!state.observed || found) continue;
-      const auto value = request.state.find(state.observed->timeline);
-      if (value == request.state.end()) continue;
-      seen = value->first + " = " + temporal::to_text(value->second);
-      if (auto pattern = state_of(model, c, value->first, value->second)) {
-        model.problem->initial[c] = std::move(*pattern);
-        found = true;
-      }
-    }
-    if (found || (seen.empty() && model.problem->initial[c])) continue;
+    const Observation observation = observed_state(request, model, c);
+    if (observation.state) model.problem->initial[c] = *observation.state;
+    if (observation.state || (observation.seen.empty() && model.problem->initial[c])) continue;
     misfits.push_back(
-        {"", "it is not known in which state '" + model.components[c].name + "' is" +
-                 (seen.empty() ? std::string(": no timeline of it was observed; say 'observed' of its "
-                                             "states, or its state under 'initial'")
-                               : ": " + seen + " is no value of its states; say 'observed' of one")});
+        {"",
+         "it is not known in which state '" + model.components[c].name + "' is" +
+             (observation.seen.empty()
+                  ? std::string(": no timeline of it was observed; say 'observed' of its states, or its state "
+                                "under 'initial'")
+                  : ": " + observation.seen + " is no value of its states; say 'observed' of one")});
   }
 }
 
@@ -193,6 +185,18 @@ std::optional<Model> read_model(const Request& request, mission::Findings& findi
   std::vector<reading::Text> texts{{"model", request.model}};
   if (!request.problem_text.empty()) texts.push_back({"problem", request.problem_text});
   return reading::parse_model(texts, findings, reading::Problem::of_a_request);
+}
+
+Observation observed_state(const Request& request, const Model& model, Index component) {
+  Observation out;
+  for (const model::State& state : model.components[component].states) {
+    if (!state.observed || out.state) continue;
+    const auto value = request.state.find(state.observed->timeline);
+    if (value == request.state.end()) continue;
+    out.seen = value->first + " = " + temporal::to_text(value->second);
+    out.state = state_of(model, component, value->first, value->second);
+  }
+  return out;
 }
 
 std::vector<Misfit> put_request(const Request& request, Model& model) {

@@ -10,9 +10,9 @@
 #include <fstream>
 #include <functional>
 
-#include "services/owner/command_server.hpp"
 #include "services/publisher.hpp"
 #include "services/rpc.hpp"
+#include "tests/unit/dedicated_svc/wheels.hpp"
 #include "tests/unit/services/sim_run.hpp"
 
 namespace roci::dedicated {
@@ -24,7 +24,6 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
-namespace owner = services::owner;
 namespace topics = services::topics;
 
 constexpr char kMission[] = R"(
@@ -68,43 +67,6 @@ dedicated:
       calls:
         - {name: seen, observe: {timeline: scout.nav, is: [idle-at, w1]}, within_s: 50}
 )";
-
-// A subsystem whose commands take 20 s and end as the script says: the newest word of it is used again and again.
-class Wheels final : private owner::Driver {
- public:
-  Wheels(services::Node& node, std::deque<std::string> script)
-      : node_(node), script_(std::move(script)), commands_(node, *this) {}
-  std::vector<std::string> begun, ways;
-
- private:
-  void carry_out(const owner::Request& request) override {
-    begun.push_back(request.robot + "." + request.subsystem + " " + request.command + " " +
-                    request.key.activity);
-    if (request.arguments.contains("way")) ways.push_back(request.arguments.at("way"));
-    commands_.say(request.key, {owner::Stage::accepted});
-    running_ = request.key;
-    const std::string how = script_.front();
-    if (script_.size() > 1) script_.pop_front();
-    if (how == "for-ever") return;
-    if (how == "dies") node_.after(5s, [] { throw services::Crash{}; });
-    owner::Results results{{}, 5.0, {}};
-    if (request.command == "merge") results.values["told_s"] = temporal::to_seconds(node_.now());
-    timer_ = node_.after(20s, [this, how, results] {
-      const bool done = how == "done";
-      commands_.say(*running_, {done ? owner::Stage::completed : owner::Stage::failed, how, "", results});
-    });
-  }
-  void break_off(const owner::CommandKey& key, const owner::Word& why) override {
-    node_.cancel(timer_);
-    commands_.say(key, why);
-  }
-
-  services::Node& node_;
-  std::deque<std::string> script_;
-  owner::CommandServer commands_;
-  std::optional<owner::CommandKey> running_;
-  services::Node::TimerId timer_ = 0;
-};
 
 class DedicatedServiceTest : public testing::Test {
  protected:
@@ -157,6 +119,7 @@ class DedicatedServiceTest : public testing::Test {
                                 std::deque<std::string> script = {"done"},
                                 v1::MotionOutcome path = v1::MOTION_FOUND,
                                 const std::function<void(services::Node& master)>& also = {}) {
+    std::filesystem::remove(folder_ / "loco.calls");
     services::SimRun run({"master", "wheels", "nav", "loco"});
     services::Node& master = run.add("master");
     services::Node& wheels_node = run.add("wheels");
@@ -232,7 +195,8 @@ TEST_F(DedicatedServiceTest, AWayOfTooManyPointsIsNotBrought) {
 
 TEST_F(DedicatedServiceTest, APathOnAMapThatWasToldTooLongAgoIsNoPath) {
   EXPECT_THAT(talk({{1s, command("a", "Merge")}}), Contains(HasSubstr("21 a failed map-too-old")));
-  EXPECT_THAT(reasons_, Contains("b: the newest map that was merged is 20.000001 s old, and may be 20.000000 s"));
+  EXPECT_THAT(reasons_,
+              Contains("b: the newest map that was merged is 20.000001 s old, and may be 20.000000 s"));
 }
 
 TEST_F(DedicatedServiceTest, AFailedCallFailsTheCommandWithItsCode) {
@@ -323,40 +287,6 @@ TEST_F(DedicatedServiceTest, RefusesWhatItCannotDo) {
 
 TEST_F(DedicatedServiceTest, ASubsystemThatDiesFailsTheCommand) {
   EXPECT_THAT(talk({{1s, command("a", "Traverse")}}, {"dies"}), Contains("6 a failed owner-lost"));
-}
-
-// What the process before this one commanded is asked after, and ended, before anything new begins.
-TEST_F(DedicatedServiceTest, AfterARestartWhatStillRunsIsEndedFirst) {
-  services::SimRun run({"master", "wheels", "nav", "loco"});
-  run.master.restart_hold_s = 1000;
-  services::Node& master = run.add("master");
-  Wheels wheels(run.add("wheels"), {"for-ever", "done"});
-  services::serve(run.add("nav"), topics::path_request,
-                  [&](const v1::PathRequest&, auto responder) { responder.reply({}); });
-  std::vector<std::string> heard;
-  services::subscribe(master, topics::command_ack, [&](const v1::CommandAck& ack) {
-    heard.push_back(std::to_string(master.now() / 1s) + " " + ack.owner() + " " + ack.activity() + " " +
-                    ack.code());
-  });
-  const auto sender = services::advertise(master, topics::command);
-  const auto states = services::advertise(master, topics::observation);
-  master.at(0s, [&] { stand_at_origin(states); });
-  services::Node& first = run.add("loco");
-  const auto before = make_service(first, settings_);
-  master.at(1s, [&] { sender.write(command("a", "Traverse")); });
-  first.at(10s, [] { throw services::Crash{}; });
-  master.at(10s, [] {});
-  master.at(12s, [&] { sender.write(command("a", "Traverse", v1::COMMAND_QUERY)); });
-  master.at(13s, [&] { sender.write(command("b", "Traverse")); });
-  master.after(100s, [&master] { master.stop(); });
-  run.start();
-  run.wait_for_crash("loco");
-  const auto after = make_service(run.add("loco", 2), settings_);
-  run.run();
-  EXPECT_THAT(heard,
-              ElementsAre("1 loco a ", "1 wheels master/1/a/2 ", "10 wheels master/1/a/2 ",
-                          "10 wheels master/1/a/2 cancelled", "12 loco a owner-restarted", "13 loco b ",
-                          "13 wheels master/1/b/2 ", "33 wheels master/1/b/2 done", "33 loco b done"));
 }
 
 }  // namespace

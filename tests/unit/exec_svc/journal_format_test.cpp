@@ -5,6 +5,7 @@
 
 #include <map>
 
+#include "exec_svc/archive/plan_fields.hpp"
 #include "exec_svc/journal/format.hpp"
 #include "exec_svc/journal/journaled_reactor.hpp"
 #include "tests/unit/exec_svc/golden/golden.hpp"
@@ -122,6 +123,20 @@ TEST_F(JournalFormatTest, InputsOfAnotherFormatAreSaidAndNeverRead) {
   ASSERT_TRUE(executive.recovery().divergence);
   EXPECT_EQ(executive.recovery().divergence->got, "format 4");
   EXPECT_EQ(executive.reactor().goals().all().size(), 3U);
+}
+
+// Nobody observes it, so nobody could tell it again.
+TEST_F(JournalFormatTest, WhatPlansHaveBroughtAboutOutlivesInputsThatAreNotRead) {
+  testing::make_golden_journal(1, file);
+  const std::map<std::string, temporal::Value> concluded{{"errand", temporal::state("fetched", {"red"})}};
+  const MissionModel mission = read_mission(ROCI_SOURCE_DIR "/missions/planetary");
+  Journal journal(file, Durability::process);
+  journal.set_number("format", 4);
+  journal.set_text("concluded", archive::to_bytes(concluded));
+  journal.commit();
+  const JournaledReactor executive(mission, journal);
+  EXPECT_FALSE(executive.recovery().resumed);
+  EXPECT_EQ(executive.reactor().concluded(), concluded);
 }
 
 TEST_F(JournalFormatTest, ANewerFormatIsRefusedInWordsAndLeftAlone) {

@@ -107,6 +107,18 @@ TEST_F(ReactorTest, AnOwnerLostDuringThePauseMakesTheRobotSafeAndItsReturnResume
   EXPECT_EQ(reactor.counts().achieved, 2U);
 }
 
+// Of a robot that is not there nothing is ever observed.
+TEST_F(ReactorTest, AWishForAPlanTellsOnceForWhomItWaits) {
+  ReactorInputs wish;
+  wish.goals = {photo("a")};
+  run(20, std::move(wish));
+  EXPECT_EQ(std::ranges::count(trace, "plan.waits"), 1);
+  EXPECT_THAT(trace, Not(Contains("plan.wanted")));
+  run(200, robot_and({}));
+  EXPECT_EQ(std::ranges::count(trace, "plan.waits"), 1);
+  EXPECT_THAT(trace, Contains("plan.wanted"));
+}
+
 TEST_F(ReactorTest, AnOwnerThatComesBackWithinThePauseHearsTheFallbackAgain) {
   run(20, robot_and({photo("a")}));
   robot_is_dead = true;

@@ -175,6 +175,44 @@ TEST_F(TimelineReactor, FliesAPlanThatCommandsItself) {
   EXPECT_EQ(reactor.goals().find({"ground", "a"})->state, goals::GoalState::achieved);
 }
 
+// R135: a state of the abstract layer that the plan has brought about is told, and outlives the process.
+TEST_F(TimelineReactor, WhatThePlanBringsAboutUnobservedIsToldAndKept) {
+  const std::uint64_t call = asked();
+  temporal::FlexiblePlan plan = bore();
+  temporal::PlanActivity errand;
+  errand.id = "errand";
+  errand.name = "boring a hole";
+  errand.start_point = plan.point_count++;
+  errand.end_point = plan.point_count++;
+  errand.impacts = {{"errand", temporal::ImpactKind::assign, temporal::ImpactWhen::at_start, state("boring")},
+                    {"errand", temporal::ImpactKind::assign, temporal::ImpactWhen::at_end, state("bored")}};
+  plan.constraints = {{errand.start_point, plan.activities[0].start_point},
+                      {plan.activities[0].end_point, errand.end_point}};
+  plan.activities.push_back(errand);
+  answer(call, plan);
+  const auto told = [](const ReactorOutputs& out) {
+    std::vector<std::string> text;
+    for (const auto& [timeline, value] : out.concluded)
+      text.push_back(timeline + " = " + temporal::to_text(value));
+    return text;
+  };
+  EXPECT_THAT(told(reactor.step(seconds(5), {})), ElementsAre("errand = boring"));
+  ReactorInputs done;
+  done.acks = {{"p1.1-bore", 1, CommandStage::accepted, "", ""},
+               {"p1.1-bore", 1, CommandStage::completed, "", ""}};
+  done.observations = {{"mole.drill", state("in", {"h-a"})}, {"mole.depth", 3.0}};
+  EXPECT_THAT(told(reactor.step(seconds(65), done)), ElementsAre("errand = bored"));
+  const std::map<std::string, Value> kept{{"errand", state("bored")}};
+  EXPECT_EQ(reactor.concluded(), kept);
+  Reactor restored(mission);
+  restored.restore(reactor.snapshot());
+  EXPECT_EQ(restored.concluded(), kept);
+  ReactorInputs observed;
+  observed.observations = {{"errand", state("bored")}};
+  restored.step(seconds(70), observed);
+  EXPECT_THAT(restored.concluded(), IsEmpty()) << "who observes it knows better";
+}
+
 TEST_F(TimelineReactor, APlanForStrangersIsRefusedInWords) {
   const std::uint64_t call = asked();
   temporal::FlexiblePlan plan = bore();

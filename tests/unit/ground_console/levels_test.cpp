@@ -114,6 +114,18 @@ TEST(PlanRows, WhatRunsStaysTheLongest) {
   EXPECT_THAT(shown(lib::MissionView(), 3), IsEmpty());
 }
 
+// An executive tells of what was skipped without times.
+TEST(PlanRows, WhatWasSkippedIsOverAndMovesNoAxis) {
+  lib::MissionView view = traverse(4, 2);
+  v1::StepStatus skipped = step("cycle-0.2", v1::ACTIVITY_SKIPPED, 9, 0, -1, -1);
+  skipped.earliest_start_us(INT64_MIN);
+  skipped.latest_start_us(INT64_MAX);
+  view.take(skipped);
+  EXPECT_EQ(shown(view, 8).at(1), ">cycle-0 +3");
+  EXPECT_THAT(cli::watch::watch_screen(view, 120, 60).plain(), HasSubstr("00:00:00    "));
+  EXPECT_THAT(cli::watch::watch_screen(view, 120, 60).plain(), Not(HasSubstr(":-")));
+}
+
 TEST(PlanRows, KeepWithinTheirRoomAndCountTheRest) {
   std::mt19937_64 random(7);
   for (int i = 0; i < 200; ++i) {
@@ -134,15 +146,15 @@ TEST(WatchScreen, ShowsTheLevelsOfAPlan) {
       screen.substr(screen.find("Plan 3"), screen.find("Events") - screen.find("Plan 3"));
   EXPECT_EQ(
       plan,
-      R"(Plan 3                              00:00:00                                                00:05:00
-    windows                                                                   ▁▁▁▁▁▁▁▁▁▁▁▁▁
-  ▶ traverse                        ████████████████████████████████████████████████████████████████
-  ✔   cycle-0 +3                    ███████                                                        │
-  ▶   cycle-1                             ██████████████████████████████████████████████████████████
-  ✔     cycle-1.0                         ███                                                      │
-  ▶     cycle-1.1                           ████████████████████████████████████████████████████████
-        cycle-1.2                             ░                                                    │
-      cycle-2 +3                                ░                                                  │
+      R"(Plan 3                                  00:00:00                                            00:05:00
+    windows                                                                    ▁▁▁▁▁▁▁▁▁▁▁▁▁
+  ▶ traverse                            ████████████████████████████████████████████████████████████
+  ✔   cycle-0 +3                        ██████                                                     │
+  ▶   cycle-1                                ███████████████████████████████████████████████████████
+  ✔     cycle-1.0                            ███                                                   │
+  ▶     cycle-1.1                              █████████████████████████████████████████████████████
+        cycle-1.2                                ░                                                 │
+      cycle-2 +3                                   ░                                               │
 
 )");
 }

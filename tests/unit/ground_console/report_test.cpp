@@ -35,6 +35,31 @@ TEST(Json, OfTheStatusHasEveryPart) {
   EXPECT_EQ(status["timelines"]["rover.nav"], "idle-at");
 }
 
+// R129: idle after the plan until the next one.
+TEST(Json, OfTheStatusTellsSinceWhenAndAfterWhichPlanTheRobotIdles) {
+  lib::MissionView view = flying_mission();
+  v1::ExecutedPlan executed;
+  executed.executive(view.executive());
+  executed.version(view.mission()->plan_version());
+  executed.header().stamp_us(290'000'000);
+  executed.outcome(v1::EXECUTED_BROKEN);
+  executed.reason("a drive failed");
+  view.take(executed);
+  EXPECT_FALSE(cli::status_json(view).contains("idle")) << "a plan is executed";
+  v1::MissionStatus status = *view.mission();
+  status.header().seq(status.header().seq() + 1);
+  status.phase(v1::PHASE_SAFE);
+  view.take(status);
+  EXPECT_EQ(
+      cli::status_json(view)["idle"],
+      (json{{"since_s", 290.0}, {"after_plan", 2}, {"outcome", "broken"}, {"reason", "a drive failed"}}));
+  EXPECT_THAT(cli::status_text(view), HasSubstr("idle since 00:04:50: plan 2 broken, a drive failed\n"));
+  status.header().seq(status.header().seq() + 1);
+  status.plan_version(3);
+  view.take(status);
+  EXPECT_FALSE(cli::status_json(view).contains("idle")) << "of the newest plan nothing is known";
+}
+
 TEST(Json, OfThePlanHasItsActivitiesAndTheirStates) {
   const json plan = json::parse(cli::json_text(cli::plan_json(flying_mission())));
   EXPECT_EQ(plan["version"], 2);

@@ -246,6 +246,23 @@ Repairs
   EXPECT_EQ(cli::robots_text(lib::MissionView()), "");
 }
 
+TEST(Robots, AFamilyOfTimelinesIsOneWithItsNewest) {
+  lib::MissionView view = two_rovers();
+  const auto way = [&](const std::string& name, double s) {
+    v1::Observation out = state_of("primary.way." + name, "open", {});
+    out.sampled_us(static_cast<std::int64_t>(s * 1e6));
+    view.take(out);
+  };
+  way("w0.w1", 10);
+  way("w1.w2", 20);
+  const auto states = [&] { return cli::states_by_family(view, cli::robots_of(view).at(0)); };
+  EXPECT_THAT(states(), SizeIs(3)) << "two are no family";
+  way("v1.v2", 15);
+  EXPECT_THAT(states(),
+              ::testing::ElementsAre(std::pair<std::string, std::string>{"locomotion", "at w0"},
+                                     std::pair<std::string, std::string>{"way.*", "3, newest w1.w2 open"}));
+}
+
 TEST(Robots, OfAMissionWithOneAreThatOne) {
   const auto robots = cli::robots_of(flying_mission());
   ASSERT_THAT(robots, SizeIs(1));

@@ -485,6 +485,24 @@ TEST_F(SupervisorTest, AHelperThatCannotBeKeptIsMissedAndTriedOn) {
   EXPECT_EQ(starts.size(), 1U + 12U) << "30 s between two starts";
 }
 
+// Its vendor is not installed on this host.
+TEST_F(SupervisorTest, AHelperWithoutATransportIsMissedAndTriedOn) {
+  script = {{"science_svc", "exit 3"}, {"sim_svc", "exec tail -f /dev/null"}};
+  std::vector<std::string> missed;
+  auto supervisor = make({"science_svc", "sim_svc"}, true, [&](Supervisor::Hooks& hooks) {
+    hooks.may_be_missed = [](const std::string& service) { return service == "science_svc"; };
+    hooks.on_missed = [&](const std::string& service, const std::string& what) {
+      missed.push_back(service + " " + what);
+    };
+  });
+  supervisor.start(start);
+  auto now = start;
+  for (std::size_t death = 1; death <= 3; ++death, now += 31s)
+    turn_until(supervisor, now, [&] { return deaths.size() == death; });
+  EXPECT_FALSE(supervisor.failure());
+  EXPECT_THAT(missed, ElementsAre("science_svc ended with code 3; the mission goes on without it"));
+}
+
 TEST_F(SupervisorTest, BadInputIsNotTriedAgain) {
   script = {{"arm_svc", "exit 2"}, {"sim_svc", "exec tail -f /dev/null"}};
   auto supervisor = make({"arm_svc", "sim_svc"});

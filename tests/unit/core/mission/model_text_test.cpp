@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -39,7 +40,7 @@ class ModelText : public testing::Test {
     return out;
   }
 
-  std::filesystem::path folder_ = std::filesystem::path(testing::TempDir()) / "model_text";
+  std::filesystem::path folder_ = std::filesystem::path(testing::TempDir()) / ("model_text_" + std::to_string(::getpid()));
 };
 
 TEST_F(ModelText, WhatIncludesNothingStaysAsItIs) {

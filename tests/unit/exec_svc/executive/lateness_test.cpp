@@ -12,6 +12,7 @@ using executive::OutcomeKind;
 
 namespace {
 
+using ::testing::Contains;
 using ::testing::ElementsAre;
 
 /// photo follows drive, its start in [lb 150, ub 200] seconds.
@@ -175,6 +176,26 @@ TEST(Lateness, DeadlineIsTheLatestNextChangeOfTheTimeline) {
                   "120.000001 cancel traverse#1",
                   "120.000001 plan broken: deadline_passed, traverse, still running at its deadline 120 s",
                   "120.000001 traverse failed (still running at its deadline 120 s)"));
+}
+
+// R129: what is tried again must fit into the times that the plan has.
+TEST(Lateness, ARetryDoesNotMoveTheDeadline) {
+  PlanBuilder b;
+  temporal::PlanActivity& planned = b.activity("traverse", "rover", 50, 120);
+  planned.lateness = temporal::LatenessPolicy::deadline;
+  planned.retries = 3;
+  const Answer stuck{.lasts = 30, .ends_with = executive::CommandStage::failed, .reason = "stuck"};
+  ScriptedWorld fits(b.plan);
+  fits.answers("traverse", {stuck, stuck, {.lasts = 60}});
+  EXPECT_THAT(fits.run(), Contains("120 plan finished"));
+  ScriptedWorld overruns(b.plan);
+  overruns.answers("traverse", {stuck, stuck, {.lasts = 61}});
+  EXPECT_THAT(overruns.run(), Contains("120.000001 plan broken: deadline_passed, traverse, still running at "
+                                       "its deadline 120 s"));
+  ScriptedWorld no_room(b.plan);
+  no_room.answers("traverse", {stuck});
+  EXPECT_THAT(no_room.run(), Contains("90 plan broken: activity_failed, traverse, failed: stuck"))
+      << "the shortest attempt would end at 140 s";
 }
 
 TEST(Lateness, EndsInTheWrongOrderBreakThePlan) {

@@ -10,6 +10,7 @@
 #include "planner_svc/engine_host_service.hpp"
 #include "planner_svc/engines.hpp"
 #include "planner_svc/settings.hpp"
+#include "services/publisher.hpp"
 #include "services/rpc.hpp"
 #include "services/wire/plan_wire.hpp"
 #include "tests/unit/services/sim_run.hpp"
@@ -42,7 +43,7 @@ class TimelineModelTest : public ::testing::Test {
     goal.issuer("ground");
     goal.id("1");
     goal.achieved() = services::wire::to_wire(
-        temporal::compare("mission", temporal::ConditionOp::eq, temporal::state("traversed", {"w6"})));
+        temporal::compare("mission", temporal::ConditionOp::eq, temporal::state("traversed", {"w9"})));
     out.goals().push_back(goal);
     return out;
   }
@@ -81,7 +82,7 @@ std::size_t cycles(const v1::PlanReply& reply) {
 TEST_F(TimelineModelTest, AModelOfSeveralFilesIsPlanned) {
   const v1::PlanReply reply = reply_to(request(read_settings(folder_).model));
   ASSERT_EQ(reply.verdict_code(), v1::VERDICT_SOLVED) << reply.reason();
-  EXPECT_EQ(cycles(reply), 12U);
+  EXPECT_EQ(cycles(reply), 9U);
 }
 
 // What the executive has read is what counts: neither a planner that starts anew nor a replay sees other files.
@@ -104,6 +105,72 @@ TEST_F(TimelineModelTest, AFaultIsToldWithTheFileThatHasIt) {
   EXPECT_THAT(reply.reason(), HasSubstr("unknown key 'nonsense'"));
   std::filesystem::remove(folder_ / "yard.yaml");
   EXPECT_THROW(read_settings(folder_), std::exception);
+}
+
+const std::string kGate = R"yaml(domain: gate
+types: [side]
+objects: {side: [left, right]}
+components:
+  tour:
+    layer: abstract
+    states: {idle: {kind: default}, go: {kind: complex}, gone: {kind: default, observed: {timeline: tour}}}
+    transitions: [idle -> go, go -> gone]
+  base:
+    layer: primitive
+    states:
+      here: {kind: default}
+      pass: {kind: simple, parameters: {by: side}, duration_s: 5, command: {owner: o, component: b, command: pass, arguments: {by: by}}, needs: ["at_start gate.open(by)"]}
+    transitions: ["here <-> pass(x)"]
+  gate:
+    layer: primitive
+    states: {open: {kind: default, parameters: {side: side}, observed: {timeline: gate}}}
+    transitions: []
+behaviours:
+  go: {achieves: tour.go, variables: {side: side}, subgoals: {pass: base.pass(side)}, decisions: {side: {resolver: engine, before: pass.start, binds: side}}}
+problem:
+  horizon_s: 100
+  initial: {tour: idle, base: here, gate: open(left)}
+)yaml";
+
+// R131: the plan's decision is answered by the engine that made it, once the gate is seen.
+TEST_F(TimelineModelTest, ADecisionOfTheEngineIsAnsweredWhenTheInformationIsThere) {
+  std::ofstream(folder_ / "problem.yaml") << kGate;
+  v1::PlanRequest sent = request(kGate);
+  sent.goals()[0].achieved() =
+      services::wire::to_wire(temporal::compare("tour", temporal::ConditionOp::eq, temporal::state("gone")));
+  v1::Plan plan = reply_to(sent).solution();
+  ASSERT_EQ(plan.decisions().size(), 1U);
+  plan.executive("exec");
+  services::SimRun run({"exec", "planner_svc"});
+  services::Node& exec = run.add("exec");
+  const auto planner = host_engines(run.add("planner_svc"), settings_, engines());
+  const auto plans = services::advertise(exec, topics::plan);
+  const auto questions = services::advertise(exec, topics::decision);
+  const auto observations = services::advertise(exec, topics::observation);
+  std::vector<std::string> heard;
+  services::subscribe(exec, topics::decision_answer, [&](const v1::DecisionAnswer& answer) {
+    heard.push_back(std::to_string(exec.now() / 1s) + " " + answer.decision_id() + " " +
+                    answer.bound_value());
+  });
+  exec.at(1s, [&] {
+    plans.write(plan);
+    v1::Decision question;
+    question.executive("exec");
+    question.id(plan.decisions()[0].id());
+    question.resolver("timeline_htn");
+    question.answer_before_us(90'000'000);
+    question.decision_state(v1::DECISION_OPEN);
+    questions.write(question);
+  });
+  exec.at(7s, [&] {
+    v1::Observation seen;
+    seen.timeline("gate");
+    seen.observed() = services::wire::to_wire(temporal::Value(temporal::state("open", {"right"})));
+    observations.write(seen);
+  });
+  exec.at(20s, [&] { exec.stop(); });
+  run.run();
+  EXPECT_THAT(heard, ::testing::ElementsAre("7 " + plan.decisions()[0].id() + " right"));
 }
 
 }  // namespace

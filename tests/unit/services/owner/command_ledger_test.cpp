@@ -251,6 +251,33 @@ TEST(CommandLedger, WhatWasKeptIsKnownToTheNextProcess) {
   EXPECT_TRUE(before.take_entries().empty());
 }
 
+TEST(CommandLedger, AnOwnerGoesOnWithWhatItHadNotEndedIfItTookNothingElse) {
+  CommandLedger before = with_running();
+  const std::vector<LedgerEntry> entries = before.take_entries();
+  const auto next = [&](const std::vector<LedgerEntry>& more) {
+    CommandLedger after;
+    for (const LedgerEntry& entry : entries) after.restore(entry);
+    for (const LedgerEntry& entry : more) after.restore(entry);
+    return after;
+  };
+  Request running = request("a", Action::execute, 5);
+  running.latest_end = seconds(20);
+  CommandLedger after = next({});
+  EXPECT_TRUE(after.resume(running, seconds(1)));
+  after.end_restored();
+  EXPECT_EQ(after.receive(request("a", Action::query, 5), seconds(9)).ack->word.stage, Stage::accepted);
+  EXPECT_EQ(after.open(running.robot, running.subsystem).size(), 1u) << "a stop finds it";
+  EXPECT_TRUE(after.repair(running.key, "again", seconds(19)));
+  EXPECT_FALSE(after.repair(running.key, "again", seconds(20))) << "its latest end holds";
+  EXPECT_EQ(after.say(running.key, {Stage::completed}, seconds(9))->word.results.duration, seconds(8));
+
+  EXPECT_FALSE(next({}).resume(request("b", Action::execute, 5), seconds(1))) << "it was never taken";
+  EXPECT_FALSE(next({{running.key, "", 0, Word{Stage::completed}}}).resume(running, seconds(1)))
+      << "it has ended";
+  EXPECT_FALSE(next({{{"s", 1, running.key.commander, 5}, "", 0}}).resume(running, seconds(1)))
+      << "that may have been a stop";
+}
+
 TEST(CommandLedger, ACancelIsAnOrderFirstAndThenAnOutcome) {
   CommandLedger ledger = with_running();
   const Reception first = ledger.receive(request("a", Action::cancel), seconds(2));

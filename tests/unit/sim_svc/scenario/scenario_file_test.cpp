@@ -78,10 +78,10 @@ TEST_F(ScenarioFile, AStimulusSetsAValueAsTheGroundDoes) {
            "  - {at_s: 4, set: {id: d, timeline: hold, value: 5mm}}\n"
            "  - {at_s: 5, set: {id: e, timeline: hold, value: inf}}\n")
           .scenario;
-  const auto set = [&](std::size_t i) { return std::get<ValueStimulus>(s.stimuli.at(i).what); };
+  const auto set = [&](std::size_t i) { return std::get<OrderStimulus>(s.stimuli.at(i).what); };
   EXPECT_EQ(set(0).issuer, "ground");
   EXPECT_EQ(set(0).id, "a");
-  EXPECT_EQ(set(0).timeline, "rover.go");
+  EXPECT_EQ(set(0).target, "rover.go");
   EXPECT_EQ(set(0).value, temporal::Value(true));
   EXPECT_EQ(set(1).issuer, "me");
   EXPECT_EQ(set(1).robot, "rover");
@@ -93,6 +93,38 @@ TEST_F(ScenarioFile, AStimulusSetsAValueAsTheGroundDoes) {
               HasSubstr("'timeline' is missing"));
   EXPECT_THAT(error_of(head_ + "stimuli:\n  - {at_s: 1, set: {id: a, timeline: t, to: true}}\n"),
               HasSubstr("'to'"));
+}
+
+TEST_F(ScenarioFile, AStimulusIsAnyOrderOfTheGround) {
+  const Scenario s = load(head_ +
+                          "stimuli:\n"
+                          "  - {at_s: 1, order: {id: a, kind: safe}}\n"
+                          "  - {at_s: 2, order: {id: b, kind: drop, activity: p1.2-drive, issuer: me}}\n"
+                          "  - {at_s: 3, order: {id: c, kind: relaunch, robot: rover}}\n"
+                          "  - {at_s: 4, order: {id: d, kind: autonomy, level: E2}}\n"
+                          "  - {at_s: 5, order: {id: e, kind: answer, decision: way, choice: left}}\n"
+                          "  - {at_s: 6, order: {id: f, kind: answer, decision: way, value: wp3}}\n"
+                          "  - {at_s: 7, order: {id: g, kind: hold}}\n")
+                         .scenario;
+  const auto order = [&](std::size_t i) { return std::get<OrderStimulus>(s.stimuli.at(i).what); };
+  EXPECT_EQ(order(0).kind, OrderKind::safe);
+  EXPECT_EQ(order(1).kind, OrderKind::drop);
+  EXPECT_EQ(order(1).target, "p1.2-drive");
+  EXPECT_EQ(order(1).issuer, "me");
+  EXPECT_EQ(order(2).robot, "rover");
+  EXPECT_EQ(order(3).level, 2);
+  EXPECT_EQ(order(4).target, "way");
+  EXPECT_EQ(order(4).choice, "left");
+  EXPECT_EQ(order(5).value, temporal::Value(temporal::state("wp3")));
+  EXPECT_EQ(order(6).target, "") << "everything";
+  const auto fault = [&](const std::string& text) {
+    return error_of(head_ + "stimuli:\n  - {at_s: 1, order: {id: a, " + text + "}}\n");
+  };
+  EXPECT_THAT(fault("kind: dance"), HasSubstr("unknown order 'dance'; known: hold"));
+  EXPECT_THAT(fault("kind: drop"), HasSubstr("'activity' is missing"));
+  EXPECT_THAT(fault("kind: safe, activity: b"), HasSubstr("'activity'"));
+  EXPECT_THAT(fault("kind: autonomy, level: E7"), HasSubstr("one of: E1, E2, E3, E4"));
+  EXPECT_THAT(fault("kind: answer, decision: way, choice: a, value: b"), HasSubstr("keep one"));
 }
 
 TEST_F(ScenarioFile, ReadsTheExpectedOrderOfEvents) {

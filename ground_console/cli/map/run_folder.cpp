@@ -1,0 +1,118 @@
+#include "ground_console/cli/map/run_folder.hpp"
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <stdexcept>
+
+#include "ground_console/lib/mission_view.hpp"
+
+namespace roci::console::cli::map {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+json read_json(const fs::path& file) {
+  std::ifstream in(file);
+  return in ? json::parse(in, nullptr, false) : json();
+}
+
+std::optional<double> number_at(const json& object, const char* key) {
+  const bool there = object.is_object() && object.contains(key) && object[key].is_number();
+  return there ? std::optional(object[key].get<double>()) : std::nullopt;
+}
+
+std::string text_at(const json& object, const char* key) {
+  const bool there = object.is_object() && object.contains(key) && object[key].is_string();
+  return there ? object[key].get<std::string>() : "";
+}
+
+}  // namespace
+
+std::optional<std::string> trace_of(const fs::path& run) {
+  const fs::path program = fs::read_symlink("/proc/self/exe").parent_path() / "roci-trace";
+  std::array<int, 2> pipe_ends{};
+  if (pipe2(pipe_ends.data(), O_CLOEXEC) != 0) return std::nullopt;
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_adddup2(&actions, pipe_ends[1], STDOUT_FILENO);
+  posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
+  std::string name = program.string(), verb = "print", folder = run.string();
+  std::array<char*, 4> words{name.data(), verb.data(), folder.data(), nullptr};
+  pid_t pid = 0;
+  const int failed = posix_spawn(&pid, name.c_str(), &actions, nullptr, words.data(), environ);
+  posix_spawn_file_actions_destroy(&actions);
+  close(pipe_ends[1]);
+  std::string out;
+  std::array<char, 65536> buffer{};
+  for (ssize_t count = 0; failed == 0 && (count = read(pipe_ends[0], buffer.data(), buffer.size())) > 0;)
+    out.append(buffer.data(), static_cast<std::size_t>(count));
+  close(pipe_ends[0]);
+  int status = 1;
+  if (failed != 0 || waitpid(pid, &status, 0) != pid || status != 0) return std::nullopt;
+  return out;
+}
+
+fs::path mission_of(const fs::path& run) {
+  const json launch = read_json(run / "launch.json");
+  if (launch.is_object() && launch.contains("arguments") && launch["arguments"].is_array() &&
+      !launch["arguments"].empty() && launch["arguments"][0].is_string())
+    return launch["arguments"][0].get<std::string>();
+  throw std::invalid_argument(run.string() +
+                              " is no run folder that names its mission; see roci runs, or add --mission");
+}
+
+std::string words_of_summary(const fs::path& run) {
+  const json summary = read_json(run / "summary.json");
+  if (!summary.is_object()) return run.filename().string();
+  const auto text = [&](const char* key) {
+    return summary.contains(key) && summary[key].is_string() ? summary[key].get<std::string>() : "";
+  };
+  std::string out = "scenario " + text("scenario");
+  if (summary.contains("seed") && summary["seed"].is_number_integer())
+    out += ", seed " + summary["seed"].dump();
+  if (summary.contains("sim_s") && summary["sim_s"].is_number())
+    out += ", flown " + lib::clock_text(static_cast<std::int64_t>(summary["sim_s"].get<double>() * 1e6));
+  return out + ", " + text("result");
+}
+
+std::map<std::string, std::string> map_owners(const mission::ServiceList& list) {
+  std::map<std::string, std::string> out;
+  std::set<std::string> robots;
+  for (const mission::ServiceEntry* one : list.of_program("pathplan_svc")) {
+    if (one->robot.empty()) continue;
+    out[one->name] = one->robot;
+    robots.insert(one->robot);
+  }
+  return robots.size() > 1 ? out : std::map<std::string, std::string>{};
+}
+
+void add_hazards(const fs::path& run, const std::map<std::string, std::string>& owners, MissionMap& map) {
+  if (!fs::is_directory(run)) return;
+  for (const auto& file : fs::directory_iterator(run)) {
+    if (file.path().extension() != ".hazards") continue;
+    const json hazards = read_json(file.path());
+    if (!hazards.is_array()) continue;
+    const auto owner = owners.find(file.path().stem().string());
+    for (const json& hazard : hazards) {
+      const auto x = number_at(hazard, "x_m"), y = number_at(hazard, "y_m"),
+                 radius = number_at(hazard, "radius_m");
+      if (!x || !y || !radius || *radius < 0) continue;
+      const Circle circle{{*x, *y}, *radius};
+      if (std::ranges::find(map.hazards, circle) == map.hazards.end()) map.hazards.push_back(circle);
+      if (owner != owners.end())
+        map.known[owner->second].push_back(
+            {circle, text_at(hazard, "kind"), text_at(hazard, "found_by"), text_at(hazard, "id")});
+    }
+  }
+}
+
+}  // namespace roci::console::cli::map

@@ -1,0 +1,29 @@
+// A decision of a plan that is carried out, found again in the behaviour that left it open.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/temporal/flexible_plan.hpp"
+#include "planner_svc/timeline_htn/search/ground.hpp"
+
+namespace roci::planner::timeline_htn::adapter {
+
+/// Says which decision of which behaviour it is, and with which objects.
+struct AskedDecision {
+  model::Index behaviour = 0;
+  model::Index decision = 0;
+  std::vector<model::Index> objects;  ///< of the behaviour's variables, as they were planned
+  /// By subgoal: whether its activity is one that the first choice carries out, or one whose arguments are bound.
+  std::vector<bool> concerned;
+
+  const model::Behaviour& of(const model::Model& model) const { return model.behaviours[behaviour]; }
+};
+
+/// Looks for the activity that the decision belongs to: it stands above some that it chooses or binds, is named like a state or behaviour
+/// that has this decision, and its parts are that one's subgoals. Ids of activities may be others than those that the engine gave.
+/// Returns nothing where the model has no such behaviour.
+std::optional<AskedDecision> find_asked(search::Ground& ground, const temporal::FlexiblePlan& plan,
+                                        const temporal::DecisionPoint& point);
+
+}  // namespace roci::planner::timeline_htn::adapter
