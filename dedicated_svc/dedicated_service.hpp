@@ -8,7 +8,7 @@
 namespace roci::dedicated {
 
 /// Makes a dedicated executive with the methods of its mission file (README.md). Throws mission::FileError when they
-/// cannot be read or another dedicated executive of the mission's list shows the same timeline, std::system_error when its ledger cannot be opened.
+/// cannot be read, std::system_error when its ledger cannot be opened.
 std::unique_ptr<services::Service> make_service(services::Node& node, const services::RunSettings& settings);
 
 /// The same; `around_write` is called before and after each write of what its next process would go on with.
