@@ -205,7 +205,7 @@ TEST(YardSenses, ThePrimarySeesTheScoutBeforeItAndNotBesideIt) {
 
 #endif
 
-sim::world::Ground true_ground(const std::string& scenario = "nominal", std::uint64_t seed = 1) {
+sim::world::Ground yard_ground(const std::string& scenario = "nominal", std::uint64_t seed = 1) {
   return true_ground(ROCI_SOURCE_DIR "/missions/faster", scenario, seed);
 }
 
@@ -225,7 +225,7 @@ TEST(HiddenTraps, WhereAWayExistsThePrimaryFindsIt) {
     yard.run();
     const YardWord& primary = yard.words().back();
     EXPECT_NE(primary.code, "bogged-down") << "seed " << seed;
-    const bool way = true_way(true_ground("hidden", seed), kPrimary, kStart, kTarget).has_value();
+    const bool way = true_way(yard_ground("hidden", seed), kPrimary, kStart, kTarget).has_value();
     exist += way ? 1 : 0;
     reached += way && primary.stage == v1::STAGE_COMPLETED ? 1 : 0;
   }
@@ -236,7 +236,7 @@ TEST(HiddenTraps, WhereAWayExistsThePrimaryFindsIt) {
 #ifndef ROCI_ALL_TRANSPORTS
 
 TEST(TrueWay, ThereIsOneAroundTheTrapAndItIsLongerThanTheStraightOne) {
-  const sim::world::Ground ground = true_ground();
+  const sim::world::Ground ground = yard_ground();
   const auto way = true_way(ground, kPrimary, kStart, kTarget);
   ASSERT_TRUE(way);
   EXPECT_GT(way->length_m, 15.5);
@@ -248,10 +248,10 @@ TEST(TrueWay, ThereIsOneAroundTheTrapAndItIsLongerThanTheStraightOne) {
 }
 
 TEST(TrueWay, SoilFromEdgeToEdgeLeavesNone) {
-  sim::world::Ground ground = true_ground();
+  sim::world::Ground ground = yard_ground();
   ground.surface.soil.areas.push_back({"trap", {}, 0, {{{12, -1}, {13, -1}, {13, 31}, {12, 31}}}});
   EXPECT_FALSE(true_way(ground, kPrimary, kStart, kTarget));
-  EXPECT_FALSE(true_way(true_ground(), kPrimary, {5, 15}, {11, 15})) << "the goal lies in the trap";
+  EXPECT_FALSE(true_way(yard_ground(), kPrimary, {5, 15}, {11, 15})) << "the goal lies in the trap";
 }
 
 #endif
