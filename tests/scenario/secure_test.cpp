@@ -37,7 +37,7 @@ TEST_P(SecureFlight, GivesTheTraceOfThePlainOne) { expect_the_plain_trace(kMissi
 
 // Dedicated executives are owners, and commanders of what they call (`commander`); two rovers are two sets of rights.
 TEST_P(SecureFlight, OfTwoRoversGivesTheTraceOfThePlainOne) {
-  expect_the_plain_trace(ROCI_SOURCE_DIR "/missions/faster", "trial");
+  expect_the_plain_trace(ROCI_SOURCE_DIR "/missions/faster", "goal_change");
 }
 
 INSTANTIATE_TEST_SUITE_P(Transports, SecureFlight, ::testing::Values("fastdds", "cyclonedds", "mixed"),

@@ -17,7 +17,7 @@ inline constexpr char kTimelineMission[] = R"(format: 1
 name: mine
 model: model.txt
 objects:
-  - {name: hole-1, properties: {depth: {timeline: "{robot}.depth"}}}
+  - {name: hole-1, properties: {depth: {timeline: "{robot}.depth"}, width: 2}}
   - {name: spare, dynamic: true}
 components:
   - {name: drill, timeline: "{robot}.drill", owner: sim_svc, fallback: stop, states: {up: {}, in: {}, boring: {active: true}}}

@@ -199,12 +199,12 @@ TEST_F(TimelineReactor, ACommandGetsWhatItsObjectHas) {
   const std::uint64_t call = reactor.step(seconds(0), in).call->id;
   temporal::FlexiblePlan plan = bore();
   plan.activities[0].arguments = {
-      {"hole", "h-a"}, {"depth", "hole-1.depth"}, {"gear", "2.5"}, {"of", "nobody.depth"}};
+      {"hole", "h-a"}, {"width", "hole-1.width"}, {"gear", "2.5"}, {"of", "nobody.depth"}};
   answer(call, plan);
   const ReactorOutputs out = reactor.step(seconds(5), {});
   ASSERT_EQ(out.commands.size(), 1U);
   EXPECT_THAT(out.commands[0].arguments,
-              ElementsAre(temporal::Property{"hole", "h-a"}, temporal::Property{"depth", "0"},
+              ElementsAre(temporal::Property{"hole", "h-a"}, temporal::Property{"width", "2"},
                           temporal::Property{"gear", "2.5"}, temporal::Property{"of", "nobody.depth"}));
 }
 
