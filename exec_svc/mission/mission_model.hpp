@@ -88,8 +88,8 @@ struct GoalKind {
   std::string name;
   std::string help;
   std::map<std::string, ArgumentKind> arguments;
-  std::map<std::string, std::string>
-      object_types;  ///< of the arguments that are objects: their type in the domain
+  /// Of the arguments that are objects: their type in the domain.
+  std::map<std::string, std::string> object_types;
   std::vector<ObjectModel> objects;
   std::vector<std::string> facts;
   std::vector<std::string> facts_while_open;  ///< hold only until the goal has ended
@@ -164,7 +164,7 @@ struct ReactorSettings {
   executive::StartPolicy start = executive::StartPolicy::earliest;
   Replanning replanning = Replanning::stop_and_replan;
   orders::AutonomyLevel autonomy = orders::AutonomyLevel::e4;  ///< with which the mission begins
-  temporal::Duration standby_term = temporal::seconds(2);  ///< wall time; see standby/lease.hpp
+  temporal::Duration standby_term = temporal::seconds(2);      ///< wall time; see standby/lease.hpp
   /// Not of the mission, but of the scenario's links (executive::ExecutiveSettings).
   std::map<std::string, temporal::Duration> round_trips{};
 };

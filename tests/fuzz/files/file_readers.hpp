@@ -22,6 +22,7 @@ inline const std::map<std::string, std::string> kFileReaders{
     {"exec_svc/standby/persisted_term_file.cpp", "FuzzRunFiles.AreReadOrRefused"},
     {"exec_svc/trace/journal_reader.cpp", "FuzzRunFiles.ARecordedRunIsReadOrRefused"},
     {"exec_svc/trace/run_reader.cpp", "FuzzRunFiles.ARecordedRunIsReadOrRefused"},
+    {"ground_console/cli/map/run_folder.cpp", "- JSON of a run of one's own; what is none counts as absent"},
     {"ground_console/cli/map/map.cpp",
      "- files of a run that ended, shown as a picture; what is no JSON counts as absent"},
     {"ground_console/cli/network.cpp", "- what roci-network has just packed, in a folder of its own"},
