@@ -105,15 +105,23 @@ class DedicatedService final : public services::Service, private owner::Driver {
            open.activity == Calls::activity_of(request, step.ask->number);
   }
 
+  static method_run::End end_of(const owner::Word& why) {
+    return {.error = why.code.empty() ? "stopped" : why.code};
+  }
+
   // What is shown of a command that the ledger knows as ended.
   temporal::Value state_at_death(const Step* step) const {
     const MethodRun& run = under_way_->run;
-    if (under_way_->broken_off) return run.failed({.error = under_way_->broken_off->code}, methods_.rest);
+    if (under_way_->broken_off) return run.failed(end_of(*under_way_->broken_off), methods_.rest);
     if (!step || !step->end) return run.failed({.error = "owner-restarted"}, methods_.rest);
     return step->end->error.empty() ? run.then(methods_.rest) : run.failed(*step->end, methods_.rest);
   }
 
+  // A request may be there before the first timer.
+  void catch_up() override { begin_life(); }
+
   void begin_life() {
+    if (std::exchange(alive_, true)) return;
     if (record_.damaged())
       tell("calls.damaged", "what an earlier process commanded is not known: its record cannot be read");
     if (kept_) {
@@ -226,6 +234,7 @@ class DedicatedService final : public services::Service, private owner::Driver {
     if (step.end) return finish(*step.end);
     if (!step.repairing.empty() && !commands_.repair(under_way_->request.key, step.repairing))
       return finish(under_way_->run.forbid_repair());
+    if (const temporal::Value now = under_way_->run.during(); now != shown_) show(now);
     calls_.begin(*step.ask, under_way_->request, [this](const method_run::Answer& answer) { take(answer); });
   }
 
@@ -233,8 +242,8 @@ class DedicatedService final : public services::Service, private owner::Driver {
   void finish_early(const method_run::Answer& answer) {
     owner::Word word = *under_way_->broken_off;
     word.results.values = answer.values;
-    end(under_way_->run.failed({.error = word.code.empty() ? "stopped" : word.code}, methods_.rest),
-        std::move(word));
+    const temporal::Value state = under_way_->run.failed(end_of(word), methods_.rest);
+    end(state, std::move(word));
   }
 
   void finish(const method_run::End& result) {
@@ -271,7 +280,10 @@ class DedicatedService final : public services::Service, private owner::Driver {
     return "it has no method '" + command + "'" + words::did_you_mean(command, known);
   }
 
-  void show(const temporal::Value& state) { show(methods_.timeline, state); }
+  void show(const temporal::Value& state) {
+    shown_ = state;
+    show(methods_.timeline, state);
+  }
   void show(const std::string& timeline, const temporal::Value& state) {
     v1::Observation seen;
     seen.timeline(timeline);
@@ -296,7 +308,9 @@ class DedicatedService final : public services::Service, private owner::Driver {
       waiting_;  // until it is known what became of what an earlier process commanded
   std::optional<Kept> kept_;
   std::optional<owner::CommandKey> ended_before_;  // whose word may not have been heard
+  bool alive_ = false;
   bool settled_ = false;
+  temporal::Value shown_;  // of its own timeline
 };
 
 }  // namespace

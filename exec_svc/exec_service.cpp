@@ -288,6 +288,22 @@ class ExecService final : public services::Service {
   }
 
   void take(const services::health::PeerChange& change) {
+    if (!change.alive && mission_.executive.owner_return > temporal::Duration(0) &&
+        mission::owners_of(mission_).contains(change.service))
+      return wait_for(change);
+    if (const auto dead = awaited_.extract(change.service)) node_.cancel(dead.mapped());
+    lose_or_find(change);
+  }
+
+  // It may go on where it stood: its commands are not lost before it has had time to come back.
+  void wait_for(const services::health::PeerChange& change) {
+    awaited_[change.service] = node_.after(mission_.executive.owner_return, [this, change] {
+      awaited_.erase(change.service);
+      lose_or_find(change);
+    });
+  }
+
+  void lose_or_find(const services::health::PeerChange& change) {
     const auto known = missed_.extract(change.service);
     publisher_.forget_told(change.service);
     if (!change.alive) sources_.forget(change.service);
@@ -505,6 +521,7 @@ class ExecService final : public services::Service {
   ReactorInputs inputs_;
   std::vector<std::string> seen_;                // the inputs' lines of the trace
   std::map<std::string, std::uint32_t> missed_;  // services of before the restart, not heard of since
+  std::map<std::string, services::Node::TimerId> awaited_;  // owners that died and may come back in time
   bool step_due_ = false;
   std::optional<Node::TimerId> wake_timer_;
   services::process::DiskPause disk_pause_{leader_ == nullptr ? services::process::DiskPause(node_)

@@ -37,6 +37,7 @@ Order from_wire(const v1::Order& in) {
   out.kind = word_of<OrderKind>(in.order_kind(), v1::ORDER_SAFE, "order");
   out.target = in.target();
   out.content = services::wire::from_wire(in.content());
+  if (out.kind == OrderKind::approve && out.content != temporal::Value{}) out.kind = OrderKind::command;
   out.choice = in.choice();
   out.level = word_of<AutonomyLevel>(in.autonomy(), v1::AUTONOMY_E4, "level of autonomy");
   out.upload.assign(in.upload().begin(), in.upload().end());

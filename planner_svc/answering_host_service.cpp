@@ -71,6 +71,8 @@ void AnsweringHost::take(const v1::PlanRequest& request,
                       Duration(request.budget().wall_us()), responder});
     queue_.back().request.improvement = settings_.improvement;
     queue_.back().request.functions = settings_.functions;
+    queue_.back().request.resolvers = settings_.resolvers;
+    queue_.back().request.threads = settings_.threads;
   } catch (const services::wire::WireError& error) {
     return responder.reply(to_wire(engine::without_plan(Verdict::invalid_input, error.what())));
   }

@@ -120,8 +120,8 @@ void DecisionHost::answer(const Key& key, std::uint32_t version, const engine::R
   if (question == questions_.end() || question->second.answered) return;
   question->second.answered = true;
   v1::DecisionAnswer out;
-  out.issuer(node_.options().name);
-  out.id(key.second + "@" + std::to_string(version));
+  out.issuer(request_.engine);  // who is asked
+  out.id(key.first + "/" + key.second + "@" + std::to_string(version));
   out.executive(key.first);
   out.decision_id(key.second);
   out.choice(resolution.choice);

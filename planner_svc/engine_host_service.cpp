@@ -22,7 +22,7 @@ std::filesystem::path networks_folder(const services::Node& node, const services
 class EngineHost final : public services::Service {
  public:
   EngineHost(services::Node& node, const services::RunSettings& run, const engine::Table& table)
-      : settings_(read_settings(run.mission_file())), answering_(node, run, settings_, table) {
+      : settings_(read_settings(run.mission_file(), table)), answering_(node, run, settings_, table) {
     if (engine::stepped_named(table, settings_.engine) != nullptr)
       stepped_.emplace(node, settings_, table.at(settings_.engine), networks_folder(node, run));
     if (const auto entry = table.find(settings_.engine); entry != table.end() && entry->second.make_resolver)

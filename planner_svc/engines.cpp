@@ -21,7 +21,8 @@ const engine::Table& engines() {
       {"timeline_htn",
        {engine::MakeAnswering([] { return std::make_unique<timeline_htn::adapter::TimelineEngine>(); }),
         [] { return std::make_unique<timeline_htn::checking::TimelineChecker>(); },
-        [](const engine::Setup&) { return std::make_unique<timeline_htn::adapter::TimelineResolver>(); }}},
+        [](const engine::Setup&) { return std::make_unique<timeline_htn::adapter::TimelineResolver>(); },
+        timeline_htn::search::resolver_names()}},
       {"utility_htn",
        {engine::MakeStepped([](const engine::Setup& setup) {
           return std::make_unique<utility_htn::adapter::UtilityEngine>(

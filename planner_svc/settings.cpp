@@ -1,5 +1,6 @@
 #include "planner_svc/settings.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/mission/mission_file.hpp"
@@ -7,7 +8,36 @@
 
 namespace roci::planner {
 
-Settings read_settings(const std::filesystem::path& mission) {
+namespace {
+
+constexpr std::int64_t kMostThreads = 64;
+
+void read_resolvers(const roci::mission::Entry& planner, const engine::Table& table, Settings& out) {
+  if (const auto threads = planner.find("threads")) {
+    if (threads->integer() < 1 || threads->integer() > kMostThreads)
+      threads->fail("a search runs on 1 to " + std::to_string(kMostThreads) + " threads");
+    out.threads = static_cast<std::size_t>(threads->integer());
+  }
+  const auto list = planner.find("resolvers");
+  if (!list) return;
+  const auto engine = table.find(out.engine);
+  std::string known;
+  if (engine != table.end())
+    for (const std::string& name : engine->second.resolvers) known += (known.empty() ? "" : ", ") + name;
+  if (known.empty())
+    list->fail("engine '" + out.engine + "' has no resolvers to choose from; take 'resolvers' out");
+  for (const roci::mission::Entry& one : list->items()) {
+    out.resolvers.push_back(one.text());
+    if (std::ranges::find(engine->second.resolvers, out.resolvers.back()) == engine->second.resolvers.end())
+      one.fail("engine '" + out.engine + "' has no resolver '" + out.resolvers.back() + "'; write some of " +
+               known);
+  }
+  if (out.resolvers.empty()) list->fail("there is no resolver in it; write some of " + known);
+}
+
+}  // namespace
+
+Settings read_settings(const std::filesystem::path& mission, const engine::Table& table) {
   Settings out;
   const auto root = roci::mission::load_mission_file(mission);
   if (const auto model = root.find("model")) {
@@ -19,6 +49,7 @@ Settings read_settings(const std::filesystem::path& mission) {
   const auto planner = root.find("planner");
   if (!planner) return out;
   out.engine = planner->text_or("engine", "");
+  read_resolvers(*planner, table, out);
   out.function_timeout = temporal::seconds(planner->number_or("function_timeout_s", 20));
   if (const auto budget = planner->find("budget")) {
     if (const auto improvement = budget->find("improvement")) {

@@ -9,6 +9,7 @@
 #include "core/temporal/duration.hpp"
 #include "planner_svc/engine/function_source.hpp"
 #include "planner_svc/engine/request.hpp"
+#include "planner_svc/engine/table.hpp"
 
 namespace roci::planner {
 
@@ -21,6 +22,9 @@ struct Settings {
   std::uint64_t improvement = engine::kImprovement;
   /// Which values of external functions are asked for: `functions: eager`, `lazy` or `two_accuracy`.
   engine::FunctionsMode functions = engine::FunctionsMode::eager;
+  /// Ways to search that run side by side, and on how many threads (engine::Request).
+  std::vector<std::string> resolvers{};
+  std::size_t threads = 1;
   /// What the ground may change of it in flight: `network`, `parameters`, of the mission's `ground: {uploads: …}`.
   std::vector<std::string> uploads{};
   /// Mission time that a call takes under the simulated clock.
@@ -29,7 +33,7 @@ struct Settings {
 };
 
 /// `planner` in mission.yaml of the folder, and the text of the file that `model` names there; defaults for
-/// what is not there. Throws as mission::Entry does.
-Settings read_settings(const std::filesystem::path& mission);
+/// what is not there. Throws as mission::Entry does, also for resolvers that the engine of this table does not have.
+Settings read_settings(const std::filesystem::path& mission, const engine::Table& table = {});
 
 }  // namespace roci::planner

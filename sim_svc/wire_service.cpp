@@ -160,6 +160,7 @@ v1::OrderKind kind_of(scenario::OrderKind kind) {
     case scenario::OrderKind::release:
       return v1::ORDER_RELEASE;
     case scenario::OrderKind::approve:
+    case scenario::OrderKind::command:  // an approval with its content
       return v1::ORDER_APPROVE;
     case scenario::OrderKind::set_value:
       return v1::ORDER_SET_VALUE;

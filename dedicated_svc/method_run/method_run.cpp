@@ -172,7 +172,8 @@ Step MethodRun::fail(const Answer& answer, const Observations& observed) {
   ++repaired_[repair->first];
   const auto then = std::ranges::find(method_->calls, repair->second.then, &Call::name);
   go_on_ = then == method_->calls.end() ? at_.index : static_cast<std::size_t>(then - method_->calls.begin());
-  at_ = {&repair->second.calls, 0};
+  repair_ = &repair->second;
+  at_ = {&repair_->calls, 0};
   error_ = ended(answer.error, reason, answer.values);
   Step step = ask();
   if (step.ask) step.repairing = reason;
@@ -219,6 +220,7 @@ Value MethodRun::shown(const methods::Shown& what) const {
 }
 
 Value MethodRun::during() const {
+  if (go_on_ && !repair_->shows.name.empty()) return shown(repair_->shows);
   if (!method_->during.name.empty()) return shown(method_->during);
   temporal::State state{method_->command, {}};
   for (const std::string& name : method_->arguments) state.arguments.push_back(arguments_.at(name));

@@ -104,8 +104,9 @@ class MethodRun {
   std::map<std::string, std::string> arguments_;
   Position at_;
   std::uint32_t number_ = 0;
-  std::optional<std::size_t> go_on_;  // during a repair: index of the method's call that follows it
-  End error_;                         // that is being repaired
+  const methods::Repair* repair_ = nullptr;  // the last that was begun
+  std::optional<std::size_t> go_on_;         // during a repair: index of the method's call that follows it
+  End error_;                                // that is being repaired
   std::map<std::string, std::uint32_t> repaired_;  // how often, as the method names them
   std::map<std::string, temporal::Value> values_;  // by "call.value"
   double energy_j_ = 0;

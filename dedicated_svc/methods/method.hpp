@@ -88,19 +88,20 @@ struct Call {
   std::map<std::string, Range> check{};  ///< numbers that it must bring; else error `wrong-value`
 };
 
+/// Is a state of the executive's own timeline; its name is empty where there is none.
+struct Shown {
+  std::string name{};
+  std::vector<Template> arguments{};
+};
+
 /// Is done, within the command's own time, where a call has failed with a certain error (R146).
 struct Repair {
   std::vector<Call> calls{};
   std::string then{};         ///< the method's call with which it goes on; empty: the one that failed
   std::uint32_t at_most = 1;  ///< how often in one run
+  Shown shows{};              ///< the executive's state meanwhile; else that of the method
   /// Numbers that timelines must have now, e.g. energy for it; else the error stands.
   std::map<std::string, Range> needs{};
-};
-
-/// Is a state of the executive's own timeline; its name is empty where there is none.
-struct Shown {
-  std::string name{};
-  std::vector<Template> arguments{};
 };
 
 /// Says how one command is carried out.

@@ -165,8 +165,9 @@ Shown read_shown(const Entry& entry, const Known& known) {
 }
 
 Repair read_repair(const Entry& entry, const Method& method, Known known, std::set<std::string>& names) {
-  entry.allow_only({"calls", "then", "at_most", "needs"});
+  entry.allow_only({"calls", "then", "at_most", "needs", "shows"});
   Repair repair;
+  if (const auto shows = entry.find("shows")) repair.shows = read_shown(*shows, known);
   repair.calls = read_calls(entry.at("calls"), known, names);
   if (const auto then = entry.find("then")) {
     repair.then = then->text();

@@ -24,11 +24,12 @@ void check_sole_owner(const mission::Entry& dedicated, const std::filesystem::pa
   const mission::Entry mission = mission::load_mission_file(mission_folder);
   if (const auto components = mission.find("components")) {
     for (const mission::Entry& component : components->items()) {
+      if (component.text_or("timeline", "") != timeline.text()) continue;
       const std::string owner = component.text_or("owner", name);
-      if (component.text_or("timeline", "") == timeline.text() && owner != name)
-        timeline.fail("'" + timeline.text() + "' belongs to " + owner + ", the owner of component '" +
-                      component.text_or("name", "") + "' in mission.yaml; show another timeline, or make " +
-                      name + " its owner");
+      if (owner == name) return;  // another one that shows it is told so
+      timeline.fail("'" + timeline.text() + "' belongs to " + owner + ", the owner of component '" +
+                    component.text_or("name", "") + "' in mission.yaml; show another timeline, or make " +
+                    name + " its owner");
     }
   }
   const mission::ServiceList list = mission::load_service_list_if_any(mission_folder);

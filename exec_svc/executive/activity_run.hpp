@@ -40,8 +40,8 @@ struct ActivityRun {
   bool maintenance_held = false;  ///< seen true since the start: from then on it must stay true
   bool overrun_noted = false;     ///< its longest duration has passed and no longer bounds its end
   AfterCancel after_cancel = AfterCancel::fail;
-  bool asked = false;         ///< its owner was asked what became of it; not answered yet
-  std::uint32_t queries = 0;  ///< how often it was asked in this phase because no answer came over a link
+  bool asked = false;          ///< its owner was asked what became of it; not answered yet
+  std::uint32_t queries = 0;   ///< how often it was asked in this phase because no answer came over a link
   std::uint32_t refusals = 0;  ///< how often its owner refused the epoch in this phase
   std::string reason;
 

@@ -75,6 +75,7 @@ Outputs Executive::step(temporal::Time now, const Inputs& inputs) {
   std::vector<AnswerResult> answers = impl_->take_answers(inputs.answers);
   if (!run) return {.answers = std::move(answers)};
   for (const std::string& owner : inputs.lost_owners) run->lose_owner(owner, impl_->now);
+  for (const std::string& owner : inputs.found_owners) run->find_owner(owner, impl_->now);
   run->advance(impl_->now);
   Outputs outputs = run->take_outputs(impl_->now);
   outputs.answers = std::move(answers);

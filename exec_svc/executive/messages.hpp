@@ -77,7 +77,8 @@ struct Inputs {
   /// Values that the ground has set: what activities make of them later counts.
   std::vector<Observation> settings{};
   std::vector<CommandAck> acks{};
-  std::vector<std::string> lost_owners{};  ///< services found dead, hung or cut off
+  std::vector<std::string> lost_owners{};   ///< services found dead, hung or cut off
+  std::vector<std::string> found_owners{};  ///< services that came (back)
   std::vector<DecisionAnswer> answers{};
   std::uint64_t epoch = 0;  ///< is the executive's from this step on; 0: as before
 };

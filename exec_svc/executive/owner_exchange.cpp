@@ -183,10 +183,13 @@ bool OwnerExchange::ask_again(Index activity, Time now) {
   return true;
 }
 
-void OwnerExchange::query_all(Time now) {
+void OwnerExchange::query_all(Time now, const std::string& owner) {
   for (const Index activity : state_->active) {
     ActivityRun& run = state_->runs[activity];
     if (state_->plan.activities[activity].owner.empty() || run.phase == ActivityPhase::settling) continue;
+    if (!owner.empty() &&
+        (run.phase == ActivityPhase::contingency || state_->command(activity).owner != owner))
+      continue;
     if (run.phase == ActivityPhase::contingency) {
       contingencies_->query(activity, now);
       continue;

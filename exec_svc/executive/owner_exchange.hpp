@@ -30,8 +30,8 @@ class OwnerExchange {
   /// Asks an owner behind a link, which has not answered in time, what became of its command: the command,
   /// the cancel or the answer may be lost. False: it was asked often enough, or there is no link.
   bool ask_again(Index activity, temporal::Time now);
-  /// Asks, after a restart, what became of all that runs.
-  void query_all(temporal::Time now);
+  /// Asks, after a restart, what became of all that runs; if an owner is named, that one alone, after its own.
+  void query_all(temporal::Time now, const std::string& owner = "");
 
  private:
   bool say_again(Index activity, temporal::Time now);

@@ -41,6 +41,8 @@ class PlanRun {
     return decisions_.take_answer(answer, now);
   }
   void lose_owner(const std::string& owner, temporal::Time now) { exchange_.lose_owner(owner, now); }
+  /// Asks one that came back before it counted as lost what became of all that it runs.
+  void find_owner(const std::string& owner, temporal::Time now) { exchange_.query_all(now, owner); }
   /// Acts on everything that holds at `now`, until nothing more happens.
   void advance(temporal::Time now);
   void cancel_all(temporal::Time now);

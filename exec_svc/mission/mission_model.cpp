@@ -131,10 +131,11 @@ constexpr Duration kShortestTerm = temporal::seconds(0.5);
 ReactorSettings read_executive(const Entry& entry) {
   entry.allow_only({"ack_timeout_s", "fallback_timeout_s", "replan_limit", "call_retries", "failure_limit",
                     "failure_pause_s", "failure_pause_max_s", "keep_inputs", "kept_records", "recovery",
-                    "start", "replanning", "autonomy", "standby_term_s"});
+                    "start", "replanning", "autonomy", "standby_term_s", "owner_return_s"});
   ReactorSettings out;
   out.ack_timeout = seconds_or(entry, "ack_timeout_s", temporal::to_seconds(out.ack_timeout));
   out.fallback_timeout = seconds_or(entry, "fallback_timeout_s", temporal::to_seconds(out.fallback_timeout));
+  out.owner_return = seconds_or(entry, "owner_return_s", 0);
   out.replan_limit = count_or(entry, "replan_limit", out.replan_limit, 0);
   out.call_retries = count_or(entry, "call_retries", out.call_retries, 0);
   out.failure_limit = count_or(entry, "failure_limit", out.failure_limit, 1);

@@ -88,7 +88,8 @@ struct GoalKind {
   std::string name;
   std::string help;
   std::map<std::string, ArgumentKind> arguments;
-  std::map<std::string, std::string> object_types;  ///< of the arguments that are objects: their type in the domain
+  std::map<std::string, std::string>
+      object_types;  ///< of the arguments that are objects: their type in the domain
   std::vector<ObjectModel> objects;
   std::vector<std::string> facts;
   std::vector<std::string> facts_while_open;  ///< hold only until the goal has ended
@@ -148,6 +149,8 @@ struct PlannerSettings {
 struct ReactorSettings {
   temporal::Duration ack_timeout = temporal::seconds(5);
   temporal::Duration fallback_timeout = temporal::seconds(60);  ///< for components to become inactive
+  /// An owner that died counts as lost, and its commands as failed, when it has not come back so long after (0: at once).
+  temporal::Duration owner_return{0};
   std::uint32_t replan_limit = 50;
   std::uint32_t call_retries = 5;  ///< planner calls that failed for want of a service
   /// Failed commands of one component in a row; then their goals are given up.

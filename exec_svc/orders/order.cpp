@@ -5,8 +5,8 @@
 namespace roci::exec::orders {
 
 const char* to_string(OrderKind kind) {
-  constexpr std::array names{"hold",   "release", "approve", "set",      "autonomy",
-                             "upload", "answer",  "drop",    "relaunch", "safe"};
+  constexpr std::array names{"hold",   "release", "approve",  "set",  "autonomy", "upload",
+                             "answer", "drop",    "relaunch", "safe", "command"};
   return names.at(static_cast<std::size_t>(kind));
 }
 

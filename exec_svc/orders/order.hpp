@@ -11,7 +11,7 @@
 
 namespace roci::exec::orders {
 
-/// In the order of OrderKind in idl/order.idl.
+/// In the order of OrderKind in idl/order.idl, and one more: a command goes over the wire as an approval with its content.
 enum class OrderKind {
   hold,       ///< nothing new starts; with a target: this activity does not
   release,    ///< ends the hold of the same target
@@ -23,6 +23,7 @@ enum class OrderKind {
   drop,       ///< the target, an activity that has not begun, is left out
   relaunch,   ///< the plan that was stopped goes on with what is left of it (R149)
   safe,       ///< the robot is made safe, and held
+  command,    ///< the target, a component, carries out the content: its name, and arguments as "name=value"
 };
 /// "hold", "release", …, "set" for set_value.
 const char* to_string(OrderKind kind);

@@ -55,9 +55,10 @@ Problem write_timeline_problem(const Situation& situation) {
   std::map<std::string, ObjectModel> objects;
   for (const ObjectModel& object : situation.mission.objects)
     if (!object.dynamic || named.contains(object.name)) objects.insert_or_assign(object.name, object);
-  for (const GoalRecord* record : situation.goals.open())
+  for (const GoalRecord* record : situation.goals.present())
     for (ObjectModel& object : objects_of(situation.mission, record->request))
-      objects.insert_or_assign(object.name, object);
+      if (!goals::is_final(record->state) || named.contains(object.name))
+        objects.insert_or_assign(object.name, object);
   for (const auto& [name, object] : objects)
     out.objects.push_back({name, object.type, properties_of(object, situation.beliefs)});
   return out;

@@ -7,6 +7,7 @@
 #include "core/mission/entry.hpp"
 #include "exec_svc/mission/action_entries.hpp"
 #include "exec_svc/reactor/relaunch.hpp"
+#include "exec_svc/reactor/single_command.hpp"
 
 namespace roci::exec::reactor {
 
@@ -81,6 +82,8 @@ GroundOrders::Ruling GroundOrders::rule(Time now, const Order& order, ReactorInp
       return relaunch(now);
     case OrderKind::safe:
       return make_safe(now, order);
+    case OrderKind::command:
+      return command(now, order);
   }
   return refused("there is no such order");
 }
@@ -192,6 +195,30 @@ GroundOrders::Ruling GroundOrders::make_safe(Time now, const Order& order) {
   if (state_->phase != MissionPhase::safe) safing_->make_safe(now, "ordered by " + order.key.issuer);
   safe_due_.push_back(order.key);
   return {OrderStage::accepted};
+}
+
+// Two commanders of one subsystem would not know of each other: where an engine's plan runs, or is being made, the ground commands nothing
+// beside it.
+GroundOrders::Ruling GroundOrders::command(Time now, const Order& order) {
+  if (std::string fault = fault_of_commanding(); !fault.empty()) return refused(fault);
+  SingleCommand single =
+      plan_of_command(order, *state_->mission, plan_->version() + 1, now, plan_->executive());
+  if (!single.fault.empty()) return refused(single.fault);
+  state_->authority.approve(single.activity);
+  if (std::string fault = plan_->take_over(std::move(single.plan), now); !fault.empty())
+    return refused(fault);
+  return {};
+}
+
+std::string GroundOrders::fault_of_commanding() const {
+  if (state_->mission->executive.replanning == mission::Replanning::continuous)
+    return "an engine plans all the time here; ask it by a goal";
+  if (state_->authority.held()) return "everything is held; end that first (roci order release)";
+  if (state_->phase == MissionPhase::pausing || state_->phase == MissionPhase::planning)
+    return "a plan is being made";
+  if (state_->phase == MissionPhase::executing && !is_of_single_commands(plan_->executive().plan()))
+    return plan_->name() + " runs; wait for its end, or stop it (roci order safe)";
+  return "";
 }
 
 void GroundOrders::settle() {

@@ -56,8 +56,10 @@ class GroundOrders {
   Ruling upload(const orders::Order& order);
   Ruling drop(const orders::Order& order);
   Ruling relaunch(temporal::Time now);
+  Ruling command(temporal::Time now, const orders::Order& order);
   Ruling make_safe(temporal::Time now, const orders::Order& order);
 
+  std::string fault_of_commanding() const;
   std::string fault_of_waiting(const std::string& activity) const;
   void plan_if_none_runs(const std::string& reason);
   void move(const orders::IssuedKey& key, const Ruling& ruling);

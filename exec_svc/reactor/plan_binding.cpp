@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "core/temporal/activity_timeline.hpp"
 #include "exec_svc/mission/template_text.hpp"
 
 namespace roci::exec::reactor {
@@ -60,16 +61,30 @@ Renaming rename_activities(temporal::FlexiblePlan& plan) {
   return renamed;
 }
 
+// Conditions that ask how another activity went.
+void rename_in(Condition& condition, const Renaming& renamed) {
+  for (ConditionNode& node : condition.nodes) {
+    const auto found = renamed.find(temporal::activity_of(node.timeline));
+    if (found != renamed.end()) node.timeline = temporal::activity_timeline(found->second);
+  }
+}
+
 // Decisions of one plan and the next have different ids, too.
 void rename_references(temporal::FlexiblePlan& plan, const Renaming& renamed) {
   const auto rename = [&](std::string& id) {
     if (const auto found = renamed.find(id); found != renamed.end()) id = found->second;
   };
-  for (PlanActivity& activity : plan.activities) rename(activity.parent);
+  for (PlanActivity& activity : plan.activities) {
+    rename(activity.parent);
+    for (Condition* condition : {&activity.pre, &activity.maintenance, &activity.post, &activity.skip_if})
+      rename_in(*condition, renamed);
+  }
   for (temporal::DecisionPoint& decision : plan.decisions) {
     decision.id = "p" + std::to_string(plan.version) + "." + decision.id;
-    for (temporal::DecisionChoice& choice : decision.choices)
+    for (temporal::DecisionChoice& choice : decision.choices) {
       for (std::string& activity : choice.activities) rename(activity);
+      rename_in(choice.rule, renamed);
+    }
     for (temporal::ArgumentBinding& binding : decision.bindings) rename(binding.activity);
   }
 }
@@ -132,12 +147,30 @@ std::string bind_command(Commanding& command, const std::string& activity, const
   return "";
 }
 
-std::string bind_commands(PlanActivity& activity, const MissionModel& mission) {
+// "w1.x" is a property of an object that the plan was asked for with.
+std::string bind_properties(PlanActivity& activity, const Problem& problem, const PropertyTable& properties) {
+  for (temporal::Property& argument : activity.arguments) {
+    const auto dot = argument.value.find('.');
+    if (dot == std::string::npos) continue;
+    if (const auto property = properties.find(argument.value); property != properties.end()) {
+      argument.value = property->second;
+    } else if (std::ranges::find(problem.objects, argument.value.substr(0, dot), &ProblemObject::name) !=
+               problem.objects.end()) {
+      return activity.id + " needs " + argument.value +
+             " for its command, and the object has no such property; give it one under 'objects'";
+    }
+  }
+  return "";
+}
+
+std::string bind_commands(PlanActivity& activity, const MissionModel& mission, const Problem& problem,
+                          const PropertyTable& properties) {
   if (!activity.contingency.empty() && !mission.contingencies.contains(activity.contingency))
     return activity.id + " names contingency '" + activity.contingency +
            "', which the mission has not; add it under 'contingencies'";
   if (activity.owner.empty()) return "";  // internal state alone
   if (std::string fault = bind_command(activity, activity.id, mission); !fault.empty()) return fault;
+  if (std::string fault = bind_properties(activity, problem, properties); !fault.empty()) return fault;
   for (temporal::PlanCommand& command : activity.then)
     if (std::string fault = bind_command(command, activity.id, mission); !fault.empty()) return fault;
   return "";
@@ -154,7 +187,7 @@ std::string bind_plan(temporal::FlexiblePlan& plan, std::uint32_t version, const
   rename_references(plan, renamed);
   for (PlanActivity& activity : plan.activities) {
     std::string fault = mission.has_domain() ? bind_action(activity, mission, properties, beliefs)
-                                             : bind_commands(activity, mission);
+                                             : bind_commands(activity, mission, problem, properties);
     if (!fault.empty()) return fault;
   }
   return "";

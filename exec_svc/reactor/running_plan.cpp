@@ -29,7 +29,7 @@ namespace {
 constexpr std::size_t kReportedAhead = 32;
 
 /// Activities that one event names.
-constexpr std::size_t kNamed = 5;
+constexpr std::size_t kNamedActivities = 5;
 
 bool under_way(const StepStatus& step) {
   const bool begun =
@@ -63,6 +63,7 @@ void RunningPlan::step(Time now, const ReactorInputs& inputs) {
   told.epoch = epoch_;
   told.acks = inputs.acks;
   for (const PeerLoss& loss : inputs.losses) told.lost_owners.push_back(loss.service);
+  if (state_->mission->executive.owner_return > temporal::Duration(0)) told.found_owners = inputs.arrivals;
   told.answers = std::exchange(answers_, {});
   Outputs done = executive_.step(now, told);
   answer_results_ = std::move(done.answers);
@@ -213,6 +214,14 @@ void RunningPlan::begin(Time now) {
   state_->wake_at(now);
 }
 
+std::string RunningPlan::take_over(temporal::FlexiblePlan plan, Time now) {
+  if (std::string fault = load(std::move(plan), now); !fault.empty()) return fault;
+  keep_actions({});
+  for (const StepStatus& step : executive_.steps()) record_.note(step);
+  begin(now);
+  return "";
+}
+
 void RunningPlan::unload(Time now) {
   executive_.load({}, now);
   forward(executive_.step(now, {}), now);
@@ -248,10 +257,10 @@ void RunningPlan::note_newer(const ModelVersion& model) {
     std::erase_if(used, [&](std::size_t i) { return !is_older(i); });
     if (used.empty()) continue;
     for (const std::size_t i : used) versions.insert(values[i].model_version);
-    if (++count <= kNamed) names += (count == 1 ? "" : ", ") + action.activity;
+    if (++count <= kNamedActivities) names += (count == 1 ? "" : ", ") + action.activity;
   }
   if (count == 0) return;
-  if (count > kNamed) names += " and " + std::to_string(count - kNamed) + " more";
+  if (count > kNamedActivities) names += " and " + std::to_string(count - kNamedActivities) + " more";
   std::string before;
   for (const std::uint64_t version : versions)
     before += (before.empty() ? "" : ", ") + std::to_string(version);

@@ -62,6 +62,8 @@ class RunningPlan {
   std::string load(temporal::FlexiblePlan plan, temporal::Time now);
   /// Tells everybody that the loaded plan runs from now on.
   void begin(temporal::Time now);
+  /// Puts the plan in the place of the one before, as load(), and runs it from now on; what goes on stands in its record.
+  std::string take_over(temporal::FlexiblePlan plan, temporal::Time now);
   /// Forgets a plan that has ended, but for its version.
   void unload(temporal::Time now);
   /// What the planner wrote for the loaded plan; each with its id in it.

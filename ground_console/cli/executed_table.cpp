@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "ground_console/cli/levels.hpp"
+#include "ground_console/cli/report.hpp"
 #include "ground_console/cli/table.hpp"
 #include "ground_console/lib/mission_view.hpp"
 
@@ -45,23 +46,34 @@ std::string executed_table(const v1::ExecutedPlan& plan) {
          table_text(rows);
 }
 
+std::string executed_line(const v1::ExecutedActivity& one) {
+  const std::string brought = results_text(one.results());
+  return printable(one.id() + "  " + lib::name_of(one.state()) + ", " + clock_or_blank(one.started_us()) +
+                   " to " + clock_or_blank(one.ended_us()) + (brought.empty() ? "" : ": " + brought) +
+                   (one.cause().empty() ? "" : " (" + one.cause() + ")"));
+}
+
+json executed_json(const v1::ExecutedActivity& one) {
+  json row{{"id", one.id()},
+           {"name", one.name()},
+           {"level", one.level()},
+           {"parent", one.parent()},
+           {"robot", one.robot()},
+           {"state", lib::name_of(one.state())},
+           {"attempts", one.attempts()},
+           {"cause", one.cause()}};
+  if (one.started_us() >= 0) row["started_s"] = static_cast<double>(one.started_us()) * 1e-6;
+  if (one.ended_us() >= 0) row["ended_s"] = static_cast<double>(one.ended_us()) * 1e-6;
+  if (std::isfinite(one.results().energy_j())) row["energy_j"] = one.results().energy_j();
+  for (const v1::NamedValue& value : one.results().measured())
+    row["values"][value.name()] = lib::value_text(value.held());
+  return row;
+}
+
 json executed_json(const v1::ExecutedPlan& plan) {
   json activities = json::array();
   for (const auto& [one, depth] : ordered(plan)) {
-    json row{{"id", one->id()},
-             {"name", one->name()},
-             {"level", one->level()},
-             {"parent", one->parent()},
-             {"robot", one->robot()},
-             {"state", lib::name_of(one->state())},
-             {"attempts", one->attempts()},
-             {"cause", one->cause()}};
-    if (one->started_us() >= 0) row["started_s"] = static_cast<double>(one->started_us()) * 1e-6;
-    if (one->ended_us() >= 0) row["ended_s"] = static_cast<double>(one->ended_us()) * 1e-6;
-    if (std::isfinite(one->results().energy_j())) row["energy_j"] = one->results().energy_j();
-    for (const v1::NamedValue& value : one->results().measured())
-      row["values"][value.name()] = lib::value_text(value.held());
-    activities.push_back(std::move(row));
+    activities.push_back(executed_json(*one));
   }
   return {{"executive", plan.executive()},
           {"version", plan.version()},

@@ -15,4 +15,8 @@ std::string executed_table(const v1::ExecutedPlan& plan);
 /// The same; times in seconds of mission time, absent where something never started or ended.
 nlohmann::json executed_json(const v1::ExecutedPlan& plan);
 
+/// One activity of it, in a line and as JSON.
+std::string executed_line(const v1::ExecutedActivity& one);
+nlohmann::json executed_json(const v1::ExecutedActivity& one);
+
 }  // namespace roci::console::cli

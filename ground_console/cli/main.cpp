@@ -143,6 +143,12 @@ void add_order_verbs(CLI::App& app, Line& line) {
   add_order(*order, line, "approve", "At autonomy E1: let an activity start", roci::v1::ORDER_APPROVE)
       ->add_option("activity", line.order.target, "As roci plan names it")
       ->required();
+  CLI::App* command =
+      add_order(*order, line, "command", "Command a component directly, and wait for the result",
+                roci::v1::ORDER_APPROVE);
+  command->add_option("component", line.order.target, "As mission.yaml names it")->required();
+  command->add_option("command", line.order.command, "What it is to do")->required();
+  command->add_option("arguments", line.order.command_arguments, "NAME=VALUE, as many as it takes");
   CLI::App* set =
       add_order(*order, line, "set", "Set the value of a timeline that the mission gives to the ground",
                 roci::v1::ORDER_SET_VALUE);

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "ground_console/cli/executed_table.hpp"
 #include "ground_console/cli/report.hpp"
 #include "ground_console/cli/verbs.hpp"
 
@@ -58,6 +59,16 @@ void fill_upload(v1::Order& order, const std::string& file) {
   order.checksum(crc.checksum());
 }
 
+// A command goes as an approval with its content.
+void fill_command(v1::Order& order, const OrderArguments& arguments) {
+  for (const std::string& argument : arguments.command_arguments)
+    if (argument.find('=') == std::string::npos || argument.front() == '=')
+      throw std::invalid_argument("argument '" + argument + "' is no NAME=VALUE, e.g. to=w1");
+  order.content().kind(v1::VALUE_STATE);
+  order.content().state(arguments.command);
+  order.content().arguments(arguments.command_arguments);
+}
+
 json to_json(const v1::OrderStatus& status) {
   return {{"issuer", status.issuer()},
           {"id", status.id()},
@@ -89,9 +100,36 @@ v1::Order order_of(const OrderArguments& arguments) {
     order.content().kind(v1::VALUE_STATE);
     order.content().state(arguments.bound);
   }
+  if (!arguments.command.empty()) fill_command(order, arguments);
   if (arguments.kind == v1::ORDER_UPLOAD) fill_upload(order, arguments.file);
   return order;
 }
+
+namespace {
+
+// What became of a single command, of which the plan is told with the order.
+int await_command(lib::Client& client, const v1::OrderStatus& order, const std::string& command,
+                  bool as_json) {
+  const std::string activity = "p" + std::to_string(order.plan_version()) + ".1-" + command;
+  const auto ended = [&]() -> const v1::ExecutedActivity* {
+    for (const auto& [version, plan] : client.view().executed())
+      for (const v1::ExecutedActivity& one : plan.activities())
+        if (one.id() == activity && one.ended_us() >= 0) return &one;
+    return nullptr;
+  };
+  const bool heard =
+      client.wait([&] { return ended() != nullptr || client.view().ended(); }, std::chrono::hours(24));
+  if (!heard || (ended() == nullptr &&
+                 !client.wait([&] { return ended() != nullptr; }, std::chrono::milliseconds(500)))) {
+    std::cerr << "roci: the mission ended before the command did\n";
+    return kStillOpen;
+  }
+  const v1::ExecutedActivity& result = *ended();
+  std::cout << (as_json ? json_text(executed_json(result)) : executed_line(result)) << std::endl;
+  return result.state() == v1::ACTIVITY_SUCCEEDED ? kDone : kNotAchieved;
+}
+
+}  // namespace
 
 int give_order(lib::Client& client, const OrderArguments& arguments, bool as_json) {
   v1::Order order = order_of(arguments);
@@ -109,6 +147,7 @@ int give_order(lib::Client& client, const OrderArguments& arguments, bool as_jso
     return kNoMission;
   }
   if (last->stage() == v1::ORDER_REFUSED) return kRefused;
+  if (!arguments.command.empty()) return await_command(client, *last, arguments.command, as_json);
   if (last->stage() != v1::ORDER_APPLIED)
     std::cerr << "roci: it stands in the robot's journal and is applied when its time has come\n";
   return kDone;

@@ -16,8 +16,10 @@ struct OrderArguments {
   std::string choice;              ///< of `answer`
   std::string bound;               ///< of `answer`: the value for the arguments that the decision binds
   std::string level;               ///< of `autonomy`
-  std::string file;                ///< of `upload`
-  std::string id;                  ///< empty: one that nobody has used
+  std::string command;             ///< of `command`, whose target is the component
+  std::vector<std::string> command_arguments;  ///< "name=value"
+  std::string file;                            ///< of `upload`
+  std::string id;                              ///< empty: one that nobody has used
   std::string issuer = "ground";
   std::string robot;  ///< empty: the only one
 };

@@ -90,6 +90,10 @@ struct Request {
   /// Evaluations that may be spent on better plans once there is one, beside `work`; 0: none. It is the mission's and not on
   /// the wire: whoever hosts the engine sets it.
   std::uint64_t improvement = kImprovement;
+  /// Ways to search that run side by side, by the engine's own names (R132), and on how many threads; none: as the engine does of itself.
+  /// Likewise the host's to say.
+  std::vector<std::string> resolvers{};
+  std::size_t threads = 1;
 };
 
 /// What may end a call early. Both functions may be called from any thread, and as often as every

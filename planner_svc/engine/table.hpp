@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "planner_svc/engine/answering_engine.hpp"
 #include "planner_svc/engine/checker.hpp"
@@ -23,6 +24,8 @@ struct TableEntry {
   std::function<std::unique_ptr<Checker>()> make_checker;
   /// Of an engine whose plans leave decisions to itself; empty: they leave none. It may throw as MakeStepped does.
   std::function<std::unique_ptr<DecisionResolver>(const Setup&)> make_resolver{};
+  /// The ways to search that a mission may name for it (Request::resolvers); none: it has one alone.
+  std::vector<std::string> resolvers{};
 };
 
 /// By name, as mission.yaml and PlanRequest give it.

@@ -32,7 +32,10 @@ std::vector<std::string> CheckedMission::windows() const {
 }
 
 KnownTimelines::KnownTimelines(const CheckedMission& mission, const CheckedExecutive& executive)
-    : mission_(mission), robot_(executive.model.role.robot), names_(mission.world.timelines) {
+    : mission_(mission),
+      robot_(executive.model.role.robot),
+      closed_(mission.closed && executive.model.has_domain()),
+      names_(mission.world.timelines) {
   for (const SimulatedFamily& family : mission.world.families) prefixes_.push_back(family.prefix);
   for (const SimulatedComponent& component : mission.world.components)
     if (!component.known) prefixes_.push_back(component.timeline() + ".");  // numbers of its own, perhaps
@@ -53,7 +56,7 @@ void KnownTimelines::require(const Entry& entry, const std::string& text) const 
   const bool is_template = name.find_first_of("{*") != std::string::npos;
   const std::string word = is_template ? family_part(name) : name;
   const std::vector<std::string>& known = is_template ? prefixes_ : names_;
-  if (!mission_.closed && words::nearest_word(word, known).empty()) return;
+  if (!closed_ && words::nearest_word(word, known).empty()) return;
   entry.complain("nobody tells of a timeline '" + name + "'; " + instead_of(word, known));
 }
 

@@ -55,6 +55,7 @@ class KnownTimelines {
  private:
   const CheckedMission& mission_;
   std::string robot_;
+  bool closed_ = false;  ///< all timelines are known: an engine that reads no PDDL has some of its own
   std::vector<std::string> names_;
   std::vector<std::string> prefixes_;
 };

@@ -41,8 +41,8 @@ struct Codec {
   const std::string& (*run)(const void* value) = nullptr;          ///< null for types that name no run
   const std::string& (*sender)(const void* value) = nullptr;  ///< The service that says it, by its own word.
   transport::Payload (*key)(const void* value) = nullptr;     ///< Empty for types without a key.
-  std::string (*key_words)(const void* value) =
-      nullptr;  ///< The key for people; empty for types without one.
+  /// The key for people; empty for types without one.
+  std::string (*key_words)(const void* value) = nullptr;
   std::string (*addressee)(const void* value) = nullptr;  ///< The service that it is for; empty: everyone.
   /// In bytes as on the wire, but without the run's name, so that it is the same in every run. Null for types
   /// without a header.

@@ -14,7 +14,7 @@ namespace {
 constexpr std::pair<const char*, OrderKind> kKinds[]{
     {"hold", OrderKind::hold},         {"release", OrderKind::release}, {"approve", OrderKind::approve},
     {"autonomy", OrderKind::autonomy}, {"answer", OrderKind::answer},   {"drop", OrderKind::drop},
-    {"relaunch", OrderKind::relaunch}, {"safe", OrderKind::safe}};
+    {"relaunch", OrderKind::relaunch}, {"safe", OrderKind::safe},       {"command", OrderKind::command}};
 
 OrderKind read_kind(const Entry& entry) {
   const std::string word = entry.text();
@@ -50,6 +50,15 @@ void read_answer(const Entry& entry, OrderStimulus& out) {
   } else {
     out.choice = entry.at("choice").text();
   }
+}
+
+void read_command(const Entry& entry, OrderStimulus& out) {
+  out.target = entry.at("component").text();
+  temporal::State command{entry.at("command").text(), {}};
+  if (const auto arguments = entry.find("arguments"))
+    for (const auto& [name, value] : arguments->fields())
+      command.arguments.push_back(name + "=" + value.text());
+  out.value = std::move(command);
 }
 
 }  // namespace
@@ -93,6 +102,10 @@ OrderStimulus read_order(const Entry& entry) {
     case OrderKind::answer:
       entry.allow_only({"issuer", "id", "robot", "kind", "decision", "choice", "value"});
       read_answer(entry, out);
+      break;
+    case OrderKind::command:
+      entry.allow_only({"issuer", "id", "robot", "kind", "component", "command", "arguments"});
+      read_command(entry, out);
       break;
     case OrderKind::set_value:  // a stimulus of its own
     case OrderKind::relaunch:

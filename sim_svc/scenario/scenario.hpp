@@ -58,7 +58,7 @@ struct NetworkStimulus {
 };
 
 /// What the ground may order; the words are those of `roci order`.
-enum class OrderKind { hold, release, approve, set_value, autonomy, answer, drop, relaunch, safe };
+enum class OrderKind { hold, release, approve, set_value, autonomy, answer, drop, relaunch, safe, command };
 
 /// Is an order of the ground to an executive (docs/orders.md); which of the members count depends on its kind.
 struct OrderStimulus {
@@ -66,7 +66,7 @@ struct OrderStimulus {
   std::string id;
   std::string robot;  ///< whose executive; empty: the only one
   OrderKind kind = OrderKind::hold;
-  std::string target{};  ///< an activity, a timeline or a decision
+  std::string target{};  ///< an activity, a timeline, a decision or a component
   temporal::Value value{};
   std::string choice{};
   int level = 4;  ///< of autonomy: 1 to 4

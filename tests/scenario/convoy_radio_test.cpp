@@ -9,40 +9,24 @@
 #include <fstream>
 #include <map>
 #include <set>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include "tests/scenario/flight.hpp"
 #include "tests/scenario/heard_flight.hpp"
+#include "tests/scenario/radio_losses.hpp"
 
 namespace roci::scenario {
 namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
-using ::testing::HasSubstr;
 
 constexpr char kMission[] = ROCI_SOURCE_DIR "/tests/missions/convoy";
 constexpr std::uint64_t kSeeds = 50;
 
 fs::path made_folder(const std::string& name) {
   return fs::temp_directory_path() / ("roci_convoy_radio_" + name + "_" + std::to_string(::getpid()));
-}
-
-std::vector<json> lines_of(const fs::path& file) {
-  std::vector<json> out;
-  std::istringstream lines(text_of(file));
-  for (std::string line; std::getline(lines, line);) out.push_back(json::parse(line));
-  return out;
-}
-
-// All that the services of a run say of samples that did not arrive, by service.
-std::map<std::string, std::vector<json>> losses_of(const fs::path& run_folder) {
-  std::map<std::string, std::vector<json>> out;
-  for (const auto& file : fs::directory_iterator(run_folder / "links"))
-    if (file.path().extension() == ".jsonl") out[file.path().stem()] = lines_of(file.path());
-  return out;
 }
 
 class Radio : public ::testing::TestWithParam<const char*> {
@@ -76,53 +60,6 @@ TEST_P(Radio, MinutesAreCut) { expect_as_listed("radio_cut"); }
 
 INSTANTIATE_TEST_SUITE_P(Transports, Radio, ::testing::Values("inproc", "fastdds", "cyclonedds", "mixed"),
                          [](const auto& dds) { return std::string(dds.param); });
-
-using Key = std::string;  // as link reports write it
-
-template <class Sample>
-Key key_of(const Sample& sample) {
-  return sample.commander() + " " + std::to_string(sample.epoch()) + " " + sample.activity() + " " +
-         std::to_string(sample.attempt());
-}
-
-// The last word of an executive on each of its activities.
-std::map<std::string, v1::StepStatus> ends_of(const HeardFlight& flight) {
-  std::map<std::string, v1::StepStatus> out;
-  for (const v1::StepStatus& step : flight.steps) out[step.activity()] = step;
-  return out;
-}
-
-// A command that was lost is said again, or asked for, under its key; the last of a key to be lost ends its step with that reason.
-void expect_asked_for(const HeardFlight& flight, const json& loss) {
-  const auto later = [&](const v1::Command& command) {
-    return key_of(command) == loss["key"] && command.header().seq() > loss["number"];
-  };
-  if (std::ranges::any_of(flight.commands, later)) return;
-  const auto ends = ends_of(flight);
-  const auto step = std::ranges::find_if(
-      ends, [&](const auto& one) { return loss["key"].get<Key>().find(" " + one.first + " ") != Key::npos; });
-  ASSERT_NE(step, ends.end()) << loss;
-  EXPECT_THAT(step->second.cause(), HasSubstr("not answered")) << loss;
-}
-
-// Each sample that a link counts as lost, superseded or sent again has a line of its own.
-void expect_all_named(const fs::path& run_folder, const std::string& service,
-                      const std::vector<json>& losses) {
-  std::map<std::string, int> counted, named;
-  const json report = json::parse(text_of(run_folder / "links" / (service + ".json")));
-  for (const auto& [link, counts] : report.items())
-    for (const char* fate : {"lost", "superseded", "repeated"})
-      counted[link + " " + fate] += counts.value(fate, 0);
-  for (const json& loss : losses) {
-    const std::string effect = loss["effect"];
-    const std::string fate = effect == "superseded"   ? "superseded"
-                             : effect == "sent again" ? "repeated"
-                                                      : "lost";
-    ++named[loss["link"].get<std::string>() + " " + fate];
-  }
-  std::erase_if(counted, [](const auto& one) { return one.second == 0; });
-  EXPECT_EQ(named, counted) << service;
-}
 
 struct Seeds : ::testing::TestWithParam<const char*> {
   ~Seeds() override { fs::remove_all(folder); }

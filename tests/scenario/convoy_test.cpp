@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <map>
 #include <sstream>
 #include <string>
@@ -17,7 +18,8 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
-using ::testing::Contains, ::testing::ElementsAre, ::testing::HasSubstr, ::testing::StartsWith;
+using ::testing::Contains, ::testing::ElementsAre, ::testing::HasSubstr, ::testing::Not,
+    ::testing::StartsWith;
 
 constexpr char kMission[] = ROCI_SOURCE_DIR "/tests/missions/convoy";
 
@@ -59,6 +61,16 @@ TEST_P(Convoy, TheGroundStopsThePlanAndLaunchesItAgain) {
   expect_as_listed("trial_stopped");
   EXPECT_THAT(deeds_of(folder_), ElementsAre("drive w1", "press w1", "drive w1", "drive w2", "drive w2",
                                              "press w2", "drive w2"));
+}
+
+// Level E2 (R128).
+TEST_P(Convoy, APlanOfFixedTimesBreaksWhereAStepLastsLonger) { expect_as_listed("e2"); }
+
+// Level E1 (R128): two rovers at a time, each with one commander.
+TEST_P(Convoy, TheGroundCommandsSingleDecisions) {
+  expect_as_listed("commanded");
+  EXPECT_THAT(deeds_of(folder_),
+              ElementsAre("drive w1", "press w1", "drive w1", "drive w2", "press w2", "drive w2"));
 }
 
 INSTANTIATE_TEST_SUITE_P(Transports, Convoy, ::testing::Values("inproc", "fastdds", "cyclonedds", "mixed"),
@@ -103,31 +115,73 @@ TEST_F(ConvoyReport, ThePlanThatWasStoppedIsToldAsItWasExecuted) {
   EXPECT_FALSE(plan["activities"][3].contains("started_s"));
 }
 
+// E1: the console waits for what became of its command.
+TEST_F(ConvoyReport, ACommandOfTheConsoleIsAnsweredWithWhatItBrought) {
+  const Ended ended =
+      run(ROCI_SOURCE_DIR "/tests/scenario/single_command.sh \"$(dirname \"$(command -v roci-launch)\")\" " +
+          std::string(kMission) + " fastdds " + folder_.string() + " scout Scout from=w0 to=w1");
+  std::vector<std::string> lines;
+  std::istringstream text(ended.output);
+  for (std::string line; std::getline(text, line);) lines.push_back(line);
+  ASSERT_GE(lines.size(), 3U) << ended.output;
+  EXPECT_EQ(lines.back(), "0");
+  const json result = json::parse(lines[lines.size() - 2], nullptr, false);
+  ASSERT_TRUE(result.is_object()) << ended.output;
+  EXPECT_EQ(result["id"], "p1.1-Scout");
+  EXPECT_EQ(result["state"], "succeeded");
+  EXPECT_TRUE(result.contains("energy_j")) << result;
+}
+
 class ConvoyKills : public ::testing::TestWithParam<const char*> {
  protected:
   ~ConvoyKills() override { fs::remove_all(folder_); }
-  const fs::path folder_ = fs::temp_directory_path() / ("roci_convoy_kills_" + std::to_string(::getpid()));
+
+  // Kills the scout's dedicated executive while its scout drives. What is done is done under one key once.
+  void kill_in(const std::string& mission) {
+    const Ended ended = run(
+        ROCI_SOURCE_DIR "/tests/scenario/kill_in_flight.sh \"$(dirname \"$(command -v roci-launch)\")\" " +
+        mission + " " + GetParam() + " " + (folder_ / "run").string() +
+        " \"dedicated_svc.*scout\" w1 --scenario nominal --speed 200");
+    EXPECT_THAT(ended.output, StartsWith("killed "));
+    EXPECT_EQ(last_line_as_json(ended.output).value("result", ""), "achieved") << ended.output;
+    std::vector<std::string> keys;
+    std::string line;
+    for (std::istringstream lines(text_of(folder_ / "run/effects.jsonl")); std::getline(lines, line);) {
+      const json deed = json::parse(line);
+      keys.push_back(deed["activity"].get<std::string>() + deed["attempt"].dump() +
+                     deed["commander"].get<std::string>());
+    }
+    std::ranges::sort(keys);
+    EXPECT_TRUE(std::ranges::adjacent_find(keys) == keys.end());
+    events_ = journaled_events(folder_ / "run/journal.sqlite");
+  }
+
+  fs::path folder_ = fs::temp_directory_path() / ("roci_convoy_kills_" + std::to_string(::getpid()));
+  std::vector<std::string> events_;
 };
 
-// It dies while its scout drives. What it commanded is ended before anything new begins, and nothing is done under one key twice.
+// What it commanded is ended before anything new begins.
 TEST_P(ConvoyKills, ADedicatedExecutiveThatDiesEndsWhatItHadBegun) {
-  const Ended ended =
-      run(ROCI_SOURCE_DIR "/tests/scenario/kill_in_flight.sh \"$(dirname \"$(command -v roci-launch)\")\" " +
-          std::string(kMission) + " " + GetParam() + " " + folder_.string() +
-          " \"dedicated_svc.*scout\" w1 --scenario nominal --speed 200");
-  EXPECT_THAT(ended.output, StartsWith("killed "));
-  EXPECT_EQ(last_line_as_json(ended.output).value("result", ""), "achieved") << ended.output;
-  const std::vector<std::string> events = journaled_events(folder_ / "journal.sqlite");
-  EXPECT_THAT(events, Contains(StartsWith("goal.achieved")));
-  std::vector<std::string> keys;
-  std::string line;
-  for (std::istringstream lines(text_of(folder_ / "effects.jsonl")); std::getline(lines, line);) {
-    const json deed = json::parse(line);
-    keys.push_back(deed["activity"].get<std::string>() + deed["attempt"].dump() +
-                   deed["commander"].get<std::string>());
-  }
-  std::ranges::sort(keys);
-  EXPECT_TRUE(std::ranges::adjacent_find(keys) == keys.end());
+  fs::create_directories(folder_);
+  kill_in(kMission);
+  EXPECT_THAT(events_, Contains(StartsWith("goal.achieved")));
+}
+
+// R145: where the executive waits for it, it goes on, and the plan above does not break.
+TEST_P(ConvoyKills, ADedicatedExecutiveThatComesBackInTimeGoesOn) {
+  fs::create_directories(folder_);
+  fs::copy(kMission, folder_ / "convoy", fs::copy_options::recursive);
+  std::string text = text_of(folder_ / "convoy/mission.yaml");
+  const std::string before = "executive: {";
+  const auto at = text.find(before);
+  ASSERT_NE(at, std::string::npos);
+  std::ofstream(folder_ / "convoy/mission.yaml") << text.insert(at + before.size(), "owner_return_s: 200, ");
+  kill_in(folder_ / "convoy");
+  EXPECT_THAT(events_, Contains(StartsWith("goal.achieved")));
+  EXPECT_THAT(events_, Not(Contains(StartsWith("plan.broken"))));
+  EXPECT_THAT(events_, Not(Contains(StartsWith("service.lost scout.locomotion"))));
+  EXPECT_THAT(deeds_of(folder_ / "run"),
+              ElementsAre("drive w1", "press w1", "drive w1", "drive w2", "press w2", "drive w2"));
 }
 
 INSTANTIATE_TEST_SUITE_P(Transports, ConvoyKills, ::testing::Values("fastdds", "cyclonedds", "mixed"),

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -44,9 +46,102 @@ TEST_P(Faster, FliesAsListed) {
   EXPECT_EQ(traces.emplace(scenario, trace).first->second, trace);
 }
 
+class FasterTrial : public ::testing::Test {
+ protected:
+  ~FasterTrial() override { fs::remove_all(folder_); }
+
+  Flight flown(const std::string& scenario) {
+    return fly(ROCI_SOURCE_DIR "/missions/faster", "inproc", 1,
+               "--scenario " + scenario + " --run-folder " + folder_.string());
+  }
+  // What each rover did, in order: "scout motion w1".
+  std::vector<std::string> deeds(const std::string& kind) const {
+    std::vector<std::string> out;
+    std::istringstream lines(text_of(folder_ / "effects.jsonl"));
+    for (std::string line; std::getline(lines, line);) {
+      const nlohmann::json deed = nlohmann::json::parse(line);
+      if (deed["kind"] == kind)
+        out.push_back(deed["robot"].get<std::string>() + " " + deed["object"].get<std::string>());
+    }
+    return out;
+  }
+  std::string trace() const {
+    return run("roci-trace print " + (folder_ / "journal.sqlite").string()).output;
+  }
+
+  const fs::path folder_ = fs::temp_directory_path() / ("roci_faster_trial_" + std::to_string(::getpid()));
+};
+
+// R139, R147, R148: at each way-point the scout first, then the primary, in one plan that nobody touches. At the trap the scout's drive is repaired
+// within its own time, and the plan's executive sees no more of it than a status.
+TEST_F(FasterTrial, TheScoutGoesFirstAndMendsItsDriveBeforeTheTrap) {
+  const Flight flight = flown("trial");
+  EXPECT_EQ(flight.summary["replans"], 0);
+  EXPECT_EQ(flight.summary["planner"]["calls"], 1);
+  std::vector<std::string> expected;
+  for (int w = 1; w <= 9; ++w) {
+    const std::string to = "w" + std::to_string(w);
+    expected.push_back("scout " + to);
+    if (w == 3) expected.push_back("scout " + to);  // once more, on the new path
+    expected.push_back("primary " + to);
+  }
+  EXPECT_EQ(deeds("motion"), expected);
+  EXPECT_THAT(deeds("downlink"), ::testing::ElementsAre("primary traverse_done"));
+  const std::string lines = trace();
+  std::size_t from = 0;
+  for (const char* part : {"scouting(w3)", "repairing drive: no-go", "avoiding_hazard(w3)", "scouting(w3)",
+                           "scout.locomotion at(w3)", "FollowPath from=w2 to=w3"}) {
+    const std::size_t found = lines.find(part, from);
+    ASSERT_NE(found, std::string::npos) << part;
+    from = found + 1;
+  }
+}
+
+// R149: both stand, the robot idles, and the ground has the plan as far as it was executed.
+TEST_F(FasterTrial, AStoppedTrialEndsSafe) {
+  flown("trial_stopped");
+  const auto events = journaled_events(folder_ / "journal.sqlite");
+  EXPECT_THAT(events.back(), StartsWith("robot.safe"));
+  EXPECT_THAT(trace(), HasSubstr("scout.nav idle-at(here)"));
+  EXPECT_EQ(deeds("downlink").size(), 0U);
+}
+
+// Traverse-PR, and BringBack-SR by each of its triggers (R137).
+TEST_F(FasterTrial, ALostScoutIsLeftBehindAndThePrimaryArrivesAlone) {
+  flown("scout_lost");
+  const auto motions = deeds("motion");
+  EXPECT_EQ(std::ranges::count(motions, "primary w9"), 1);
+  EXPECT_EQ(std::ranges::count(motions, "scout w9"), 0);
+}
+
+TEST_F(FasterTrial, ThePrimaryThatCannotFollowHasTheScoutBack) {
+  flown("primary_blocked");
+  EXPECT_THAT(trace(), HasSubstr("ComeBack from=w3 to=w2"));
+}
+
+TEST_F(FasterTrial, AScoutWithoutAWayComesBackAndTheTeamTakesAnotherRoute) {
+  flown("scout_no_path");
+  EXPECT_THAT(trace(), HasSubstr("ComeBack from=w3 to=w2"));
+  EXPECT_THAT(trace(), HasSubstr("primary.way.w2.w3 closed"));
+  EXPECT_THAT(deeds("motion"), Contains(::testing::AnyOf("primary v3", "primary u3")));
+}
+
+TEST_F(FasterTrial, NewGoalsBringTheScoutBackFirst) {
+  flown("goal_change");
+  EXPECT_THAT(trace(), HasSubstr("ComeBack from=w1 to=w0"));
+  EXPECT_THAT(deeds("motion"), Contains("primary v3"));
+}
+
+TEST_F(FasterTrial, WithoutAPathTheGroundIsTold) {
+  flown("no_path");
+  EXPECT_THAT(deeds("downlink"), ::testing::ElementsAre("primary no_global_path"));
+  EXPECT_THAT(deeds("motion").back(), "primary w0");
+}
+
 constexpr const char* kScenarios[] = {"trial",         "trial_stopped",   "fixed_times", "marker_not_seen",
                                       "scout_no_path", "primary_blocked", "scout_lost",  "no_path",
-                                      "goal_change",   "repair_overrun",  "radio_loss",  "radio_cut"};
+                                      "goal_change",   "repair_overrun",  "radio_loss",  "radio_cut",
+                                      "opportunity"};
 #ifdef ROCI_ALL_TRANSPORTS
 constexpr const char* kTransports[] = {"inproc", "fastdds", "cyclonedds", "mixed"};
 #else

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <utility>
 
 #include "tests/scenario/flight.hpp"
 
@@ -15,22 +16,30 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::ElementsAre;
 
-class Porter : public ::testing::TestWithParam<const char*> {
+class ByTimelines : public ::testing::TestWithParam<const char*> {
  protected:
-  ~Porter() override { fs::remove_all(folder_); }
+  explicit ByTimelines(std::string mission) : mission_(std::move(mission)) {}
+  ~ByTimelines() override { fs::remove_all(folder_); }
 
   // Each has the events that its scenario lists, and the same trace on every transport.
   void expect_as_listed(const std::string& scenario) {
     static std::map<std::string, std::string> traces;
-    const Flight flight = fly(ROCI_SOURCE_DIR "/tests/missions/porter", GetParam(), 1,
+    const Flight flight = fly(ROCI_SOURCE_DIR "/tests/missions/" + mission_, GetParam(), 1,
                               "--scenario " + scenario + " --run-folder " + folder_.string());
     EXPECT_EQ(flight.exit_code, 0) << flight.summary.dump();
     EXPECT_EQ(flight.summary["expected"].value("fault", "no report"), "");
     const std::string trace = flight.summary.value("trace_sha256", "");
-    EXPECT_EQ(traces.emplace(scenario, trace).first->second, trace);
+    EXPECT_EQ(traces.emplace(mission_ + scenario, trace).first->second, trace);
   }
 
+  const std::string mission_;
+
   const fs::path folder_ = fs::temp_directory_path() / ("roci_porter_" + std::to_string(::getpid()));
+};
+
+class Porter : public ByTimelines {
+ protected:
+  Porter() : ByTimelines("porter") {}
 };
 
 // A goal of the abstract layer counts when its state stands on the timeline that nobody but the executive knows (R135).
@@ -48,6 +57,32 @@ TEST_P(Porter, PlansAnewFromWhereItStands) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Transports, Porter, ::testing::Values("inproc", "fastdds", "cyclonedds", "mixed"),
+                         [](const auto& dds) { return std::string(dds.param); });
+
+class Patrol : public ByTimelines {
+ protected:
+  Patrol() : ByTimelines("patrol") {}
+};
+
+// R141: the plan names the contingency, which is tried while another timeline runs on; the plan stays.
+TEST_P(Patrol, AContingencyIsTriedBesideWhatRunsOn) {
+  expect_as_listed("contingency");
+  EXPECT_THAT(deeds_of(folder_),
+              ElementsAre("drive camp ridge", "film ", "look ", "back_off ", "drive camp ridge", "look "));
+}
+
+TEST_P(Patrol, AContingencyThatDoesNotHelpBreaksThePlan) { expect_as_listed("no_help"); }
+
+// R131: the plan holds both choices.
+TEST_P(Patrol, WhichWayIsRightIsSeenWhenItIsDue) { expect_as_listed("night"); }
+
+// R149: with every level of the plan, and its choice as it was made.
+TEST_P(Patrol, AStoppedPlanOfSeveralLevelsGoesOn) {
+  expect_as_listed("stopped");
+  EXPECT_THAT(deeds_of(folder_), ElementsAre("drive camp ridge", "film ", "light_up ", "light_up "));
+}
+
+INSTANTIATE_TEST_SUITE_P(Transports, Patrol, ::testing::Values("inproc", "fastdds", "cyclonedds", "mixed"),
                          [](const auto& dds) { return std::string(dds.param); });
 
 }  // namespace

@@ -6,6 +6,9 @@
 #include <numbers>
 #include <queue>
 
+#include "sim_svc/components/standard_types.hpp"
+#include "sim_svc/scenario/run_file.hpp"
+
 namespace roci::scenario {
 namespace {
 
@@ -40,6 +43,13 @@ std::vector<bool> free_cells(const sim::world::Ground& ground, const TrueLimits&
 }
 
 }  // namespace
+
+sim::world::Ground true_ground(const std::string& mission, const std::string& scenario, std::uint64_t seed) {
+  sim::world::Ground ground =
+      sim::scenario::load_run(mission, scenario, sim::components::standard_types()).world.ground;
+  sim::world::scatter(ground.surface.soil, seed);
+  return ground;
+}
 
 bool no_go_at(const sim::world::Ground& ground, const sim::components::WheeledVehicle& vehicle,
               terrain::Point p) {

@@ -1,6 +1,7 @@
 // Whether a way exists at all on the true map, soil included: an oracle that shares no code with pathplan_svc.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -24,6 +25,13 @@ struct TrueWay {
   double length_m = 0;
   std::vector<terrain::Point> points;
 };
+
+/// The primary of missions/faster as its path planner knows it, where it starts and where its target lies.
+inline constexpr TrueLimits kYardPrimary{0.8, 15, 0.1, {2354, 6, 0.1, 0.3}};
+inline constexpr terrain::Point kYardStart{5, 15}, kYardTarget{20, 15};
+
+/// The ground of a scenario of a mission folder as it is, soil scattered by the seed.
+sim::world::Ground true_ground(const std::string& mission, const std::string& scenario, std::uint64_t seed);
 
 /// Returns a shortest such way (Dijkstra over the eight neighbours, diagonally only between free cells), or nothing if there is
 /// none. The soil has been scattered. Where an end is not free itself there is no way.

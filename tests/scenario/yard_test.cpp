@@ -7,8 +7,6 @@
 
 #include <algorithm>
 
-#include "sim_svc/components/standard_types.hpp"
-#include "sim_svc/scenario/run_file.hpp"
 #include "tests/scenario/true_way.hpp"
 
 namespace roci::scenario {
@@ -19,7 +17,7 @@ using testing::HasSubstr;
 using testing::Not;
 
 constexpr int kMostNoGo = 12;  // after which a flight gives up
-constexpr terrain::Point kStart{5, 15}, kTarget{20, 15};
+constexpr terrain::Point kStart = kYardStart, kTarget = kYardTarget;
 
 // As the paper has it: the way is the primary's, the scout drives it first, from way-point to way-point. After a No-Go the
 // scout's map is told, and there is another way. Where the scout came through, the primary follows.
@@ -207,15 +205,11 @@ TEST(YardSenses, ThePrimarySeesTheScoutBeforeItAndNotBesideIt) {
 
 #endif
 
-sim::world::Ground true_ground(const std::string& scenario = "nominal", std::uint64_t seed = 1) {
-  sim::world::Ground ground =
-      sim::scenario::load_run(ROCI_SOURCE_DIR "/missions/faster", scenario, sim::components::standard_types())
-          .world.ground;
-  sim::world::scatter(ground.surface.soil, seed);
-  return ground;
+sim::world::Ground yard_ground(const std::string& scenario = "nominal", std::uint64_t seed = 1) {
+  return true_ground(ROCI_SOURCE_DIR "/missions/faster", scenario, seed);
 }
 
-const TrueLimits kPrimary{0.8, 15, 0.1, {2354, 6, 0.1, 0.3}};
+const TrueLimits kPrimary = kYardPrimary;
 
 #ifdef ROCI_ALL_TRANSPORTS
 constexpr std::uint64_t kSeeds = 200;
@@ -231,7 +225,7 @@ TEST(HiddenTraps, WhereAWayExistsThePrimaryFindsIt) {
     yard.run();
     const YardWord& primary = yard.words().back();
     EXPECT_NE(primary.code, "bogged-down") << "seed " << seed;
-    const bool way = true_way(true_ground("hidden", seed), kPrimary, kStart, kTarget).has_value();
+    const bool way = true_way(yard_ground("hidden", seed), kPrimary, kStart, kTarget).has_value();
     exist += way ? 1 : 0;
     reached += way && primary.stage == v1::STAGE_COMPLETED ? 1 : 0;
   }
@@ -242,7 +236,7 @@ TEST(HiddenTraps, WhereAWayExistsThePrimaryFindsIt) {
 #ifndef ROCI_ALL_TRANSPORTS
 
 TEST(TrueWay, ThereIsOneAroundTheTrapAndItIsLongerThanTheStraightOne) {
-  const sim::world::Ground ground = true_ground();
+  const sim::world::Ground ground = yard_ground();
   const auto way = true_way(ground, kPrimary, kStart, kTarget);
   ASSERT_TRUE(way);
   EXPECT_GT(way->length_m, 15.5);
@@ -254,10 +248,10 @@ TEST(TrueWay, ThereIsOneAroundTheTrapAndItIsLongerThanTheStraightOne) {
 }
 
 TEST(TrueWay, SoilFromEdgeToEdgeLeavesNone) {
-  sim::world::Ground ground = true_ground();
+  sim::world::Ground ground = yard_ground();
   ground.surface.soil.areas.push_back({"trap", {}, 0, {{{12, -1}, {13, -1}, {13, 31}, {12, 31}}}});
   EXPECT_FALSE(true_way(ground, kPrimary, kStart, kTarget));
-  EXPECT_FALSE(true_way(true_ground(), kPrimary, {5, 15}, {11, 15})) << "the goal lies in the trap";
+  EXPECT_FALSE(true_way(yard_ground(), kPrimary, {5, 15}, {11, 15})) << "the goal lies in the trap";
 }
 
 #endif

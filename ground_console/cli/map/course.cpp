@@ -98,11 +98,15 @@ Course course_of(std::istream& trace) {
   return out;
 }
 
-void add_planned(const std::string& timeline, const Held& held, Course& course) {
-  Row* row = row_of(timeline, course);
-  if (row == nullptr || row->held.size() >= kChanges) return;
-  row->held.push_back(held);
-  row->held.back().planned = true;
+void add_planned(const std::string& timeline, const Changes& changes, std::int64_t until_us, Course& course) {
+  Row* row = changes.empty() ? nullptr : row_of(timeline, course);
+  if (row == nullptr) return;
+  if (!row->held.empty())
+    row->held.push_back({row->held.back().value, row->held.back().to_us, changes.front().first, true});
+  for (std::size_t i = 0; i < changes.size() && row->held.size() < kChanges; ++i) {
+    const std::int64_t to = i + 1 < changes.size() ? changes[i + 1].first : until_us;
+    row->held.push_back({changes[i].second, changes[i].first, std::max(to, changes[i].first), true});
+  }
 }
 
 std::string robot_of(const std::string& timeline, const std::vector<std::string>& robots) {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <istream>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace roci::console::cli::map {
@@ -36,8 +37,11 @@ inline constexpr std::size_t kRows = 64, kChanges = 2000;
 /// the owner's name. Numbers, and lines that say none of this, are passed over.
 Course course_of(std::istream& trace);
 
-/// Adds what is still to come; a timeline that was not seen gets a row of its own.
-void add_planned(const std::string& timeline, const Held& held, Course& course);
+using Changes = std::vector<std::pair<std::int64_t, std::string>>;  ///< time and value, by time
+
+/// Adds the changes that are still to come, until `until_us`: what was seen last stays until the first of them. A timeline that was not seen
+/// gets a row of its own.
+void add_planned(const std::string& timeline, const Changes& changes, std::int64_t until_us, Course& course);
 
 /// Puts the rows of the team first, then those of each of these robots, each part in its order.
 void sort_by_robot(const std::vector<std::string>& robots, Course& course);

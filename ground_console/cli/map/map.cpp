@@ -112,18 +112,18 @@ void add_known(const lib::MissionView& view, MissionMap& map) {
 
 // What its plan is still to bring about.
 void add_planned_course(const lib::MissionView& view, Course& course) {
+  std::map<std::string, Changes> ahead;
+  std::int64_t until = view.now_us();
   for (const auto& [timeline, changes] : timelines_of(view, {})) {
-    std::vector<const temporal::ProjectedChange*> ahead;
-    for (const temporal::ProjectedChange& change : changes)
-      if (change.kind == temporal::ProjectionKind::projected && change.time.count() > view.now_us() &&
-          std::holds_alternative<temporal::State>(change.value))
-        ahead.push_back(&change);
-    for (std::size_t i = 0; i < ahead.size(); ++i) {
-      const std::int64_t from = ahead[i]->time.count();
-      const std::int64_t to = i + 1 < ahead.size() ? ahead[i + 1]->time.count() : from;
-      add_planned(timeline, {temporal::to_text(ahead[i]->value), from, to, true}, course);
+    for (const temporal::ProjectedChange& change : changes) {
+      if (change.kind != temporal::ProjectionKind::projected || change.time.count() <= view.now_us() ||
+          !std::holds_alternative<temporal::State>(change.value))
+        continue;
+      ahead[timeline].emplace_back(change.time.count(), temporal::to_text(change.value));
+      until = std::max<std::int64_t>(until, change.time.count());
     }
   }
+  for (const auto& [timeline, changes] : ahead) add_planned(timeline, changes, until, course);
 }
 
 // What the mission's files say; a mission without ground is drawn where timelines are asked for, too.

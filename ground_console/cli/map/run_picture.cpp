@@ -18,7 +18,7 @@ using outlook::Ink, outlook::Letters, outlook::Svg;
 
 constexpr double kWidth = 1200, kEdge = 24, kHead = 64, kGap = 28;
 constexpr double kLabel = 210, kBar = 20, kRowStep = 24, kTimes = 30;
-constexpr double kMostPixels = 1000;  // of the ground's longer side
+constexpr double kMostPixels = 600;  // of the ground's longer side
 constexpr const char *kInkColour = "#1d2733", *kQuietColour = "#6b7280", *kTeam = "#5b6470";
 constexpr const char *kSoil = "#d9480f", *kRockColour = "#4a3c34", *kHazardColour = "#f08c00";
 constexpr std::array kRobotColours{"#144a9c", "#8a1c7c", "#0b7a53", "#a15c00", "#5f3dc4", "#b02a37"};

@@ -26,9 +26,8 @@ class Axis {
   Axis(const lib::MissionView& view, const Rectangle& area);
 
   std::size_t column() const { return column_; }
-  std::size_t label() const {
-    return label_;
-  }  ///< columns to the left of it; more where a plan has levels and the area is wide
+  /// Columns to the left of it; more where a plan has levels and the area is wide.
+  std::size_t label() const { return label_; }
   std::size_t width() const { return width_; }
   std::size_t column_of(std::int64_t time) const;
   std::int64_t time_at(std::size_t column) const;  ///< the latest that column_of() puts there

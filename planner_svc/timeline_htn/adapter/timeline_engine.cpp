@@ -100,10 +100,17 @@ Answer TimelineEngine::answer(const Request& request, const Limits& limits, Func
   if (!misfits.empty()) return misfitting(misfits);
   const std::vector<model::Fault> faults = model::check(*model);
   if (!model::usable(faults)) return faulty(faults, *model);
+  Settings settings = settings_;
+  if (!request.resolvers.empty()) settings = {{}, request.threads};
+  for (const std::string& name : request.resolvers) {
+    const auto resolver = search::resolver_named(name);
+    if (!resolver) return engine::without_plan(Verdict::invalid_input, "there is no resolver '" + name + "'");
+    settings.resolvers.push_back(*resolver);
+  }
   bool out_of_time = false;
-  const Resolution resolution = search::resolve(
-      *model, settings_.resolvers, settings_.threads, request.work == 0 ? kWork : request.work,
-      request.memory_bytes, [&] { return limits.cancelled() || limits.out_of_time(); });
+  const Resolution resolution =
+      search::resolve(*model, settings.resolvers, settings.threads, request.work == 0 ? kWork : request.work,
+                      request.memory_bytes, [&] { return limits.cancelled() || limits.out_of_time(); });
   if (resolution.outcome == Outcome::cancelled) out_of_time = !limits.cancelled();
   Answer out = answer_of(request, *model, resolution, out_of_time);
   for (const auto& finding : findings.all()) out.warnings.push_back(finding.text());

@@ -9,7 +9,7 @@
 
 namespace roci::planner::timeline_htn::adapter {
 
-/// Says which searches run, and on how many threads: the plan is the same for any number of these (R132).
+/// Says which searches run where a request names none, and on how many threads: the plan is the same for any number of these (R132).
 struct Settings {
   std::vector<search::Resolver> resolvers{search::Resolver{}};  ///< at least one
   std::size_t threads = 1;

@@ -50,6 +50,19 @@ class Trial {
     const model::Behaviour& behaviour = asked_.of(model_);
     const model::Decision& decision = behaviour.decisions[asked_.decision];
     if (!all_known(decision)) return std::nullopt;
+    if (decision.over) {
+      for (const temporal::DecisionChoice& choice : open_.decision.choices) {
+        const auto object = std::ranges::find(model_.objects, choice.name, &model::Object::name);
+        const bool first = &choice == &open_.decision.choices.front();
+        if (object != model_.objects.end() &&
+            permits(*decision.variable, static_cast<Index>(object - model_.objects.begin())) &&
+            possible(asked_.concerned,
+                     bound(*decision.variable, static_cast<Index>(object - model_.objects.begin())),
+                     first ? std::optional(behind_) : std::nullopt))
+          return engine::Resolution{choice.name, ""};
+      }
+      return std::nullopt;
+    }
     if (decision.variable) {
       for (const Index object : values(*decision.variable))
         if (possible(asked_.concerned, bound(*decision.variable, object), behind_))
@@ -79,8 +92,10 @@ class Trial {
         known_[c] = kind != StateKind::simple;
         continue;
       }
-      known_[c] = seen.state || std::ranges::none_of(model_.components[c].states,
-                                                     [](const model::State& one) { return !!one.observed; });
+      const bool can_be_seen = model_.components[c].layer == model::Layer::primitive &&
+                               std::ranges::any_of(model_.components[c].states,
+                                                   [](const model::State& one) { return !!one.observed; });
+      known_[c] = seen.state || !can_be_seen;
       std::optional<Pattern> rests;
       for (const temporal::Token& token : open_.plan.tokens) {
         const auto state =
@@ -118,6 +133,10 @@ class Trial {
   // Whether all is seen that subgoals stand on: their own component, those that they need, and conditions of behaviours for them.
   bool all_known(const model::Decision& decision) const {
     const model::Behaviour& behaviour = asked_.of(model_);
+    for (const model::Precondition& one : behaviour.conditions)
+      if (decision.over && !known_[one.state.component] &&
+          std::ranges::find(one.state.terms, model::Term{*decision.variable, false}) != one.state.terms.end())
+        return false;
     std::vector<bool> looked_at = asked_.concerned;
     for (const model::Choice& choice : decision.choices)
       for (const Index subgoal : choice.subgoals) looked_at[subgoal] = true;
@@ -153,9 +172,22 @@ class Trial {
     return out;
   }
 
-  // Whether the subgoals come about from here with no commands but those that are permitted and their own.
+  // Whether the conditions of the behaviour that speak of the variable hold now.
+  bool permits(Index variable, Index object) const {
+    const model::Behaviour& behaviour = asked_.of(model_);
+    const std::vector<Index> objects = bound(variable, object);
+    return std::ranges::all_of(behaviour.conditions, [&](const model::Precondition& one) {
+      if (std::ranges::find(one.state.terms, model::Term{variable, false}) == one.state.terms.end())
+        return true;
+      Pattern wanted = one.state;
+      for (model::Term& term : wanted.terms) term = {model::object_of(term, objects), true};
+      return (model_.problem->initial[wanted.component] == wanted) != one.negated;
+    });
+  }
+
+  // Whether the subgoals come about from here with no commands but their own and, where that is said, those that are permitted.
   bool possible(const std::vector<bool>& subgoals, const std::vector<Index>& objects,
-                std::set<std::string> permitted) {
+                std::optional<std::set<std::string>> permitted) {
     const model::Behaviour& behaviour = asked_.of(model_);
     if (model_.problem->horizon <= Duration{0}) return false;
     std::vector<Index> goal_of(subgoals.size(), search::kNone);
@@ -164,7 +196,7 @@ class Trial {
       if (!subgoals[s]) continue;
       Pattern state = behaviour.subgoals[s].state;
       for (model::Term& term : state.terms) term = {model::object_of(term, objects), true};
-      permitted.insert(to_text(model_, state, {}));
+      if (permitted) permitted->insert(to_text(model_, state, {}));
       goal_of[s] = static_cast<Index>(model_.problem->goals.size());
       model_.problem->goals.push_back(
           {behaviour.subgoals[s].name, state, Duration{0}, temporal::no_bound, {}});
@@ -177,9 +209,10 @@ class Trial {
     if (!model::usable(model::check(model_))) return false;
     search::Search search(model_, {});
     if (search.run(kChoiceWork, 0, [] { return false; }) != search::Outcome::solved) return false;
+    if (!permitted) return true;
     return std::ranges::all_of(search.plan().activities(), [&](const search::Activity& activity) {
       return activity.state == search::kNone || !search.ground().definition(activity.state).command ||
-             permitted.contains(search.ground().text(activity.state));
+             permitted->contains(search.ground().text(activity.state));
     });
   }
 

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <map>
 #include <set>
 
 #include "planner_svc/timeline_htn/checking/parts.hpp"
@@ -77,6 +78,59 @@ std::string choice_fault(const Asked& asked, const temporal::DecisionPoint& poin
   return {};
 }
 
+// The states that a choice of a decision over a variable begins with; nothing: one of them does not exist.
+std::optional<std::vector<GroundState>> begun_with(const Asked& asked, Index object) {
+  Binding binding = asked.way.binding;
+  binding[*asked.decision.variable] = object;
+  std::vector<GroundState> out;
+  for (const Index subgoal : asked.decision.subgoals) {
+    const model::Pattern& pattern = asked.behaviour().subgoals[subgoal].state;
+    out.push_back({pattern.component, pattern.state, {}});
+    for (const model::Term& term : pattern.terms)
+      out.back().objects.push_back(model::object_of(term, binding));
+    if (!exists(asked.version.model, out.back())) return std::nullopt;
+  }
+  return out;
+}
+
+// By name: the states of each object that might be decided on.
+std::map<std::string, std::vector<GroundState>> objects_to_choose(const Asked& asked) {
+  std::map<std::string, std::vector<GroundState>> out;
+  for (const std::string& name : admissible(asked)) {
+    const auto object = std::ranges::find(asked.version.model.objects, name, &model::Object::name);
+    const auto states = begun_with(asked, static_cast<Index>(object - asked.version.model.objects.begin()));
+    if (states) out.emplace(name, *states);
+  }
+  return out;
+}
+
+std::string object_fault(const Asked& asked, const temporal::DecisionPoint& point) {
+  const auto objects = objects_to_choose(asked);
+  std::set<std::string> named;
+  for (const temporal::DecisionChoice& choice : point.choices) {
+    const auto object = objects.find(choice.name);
+    if (object == objects.end() || !named.insert(choice.name).second || !choice.rule.empty())
+      return "choice '" + choice.name + "' is none of the behaviour, stands twice, or has a rule";
+    const bool planned = &choice == &point.choices.front();
+    if (planned &&
+        choice.name != asked.version.model.objects[asked.way.binding[*asked.decision.variable]].name)
+      return "its first choice is not the one that the plan reckons with";
+    std::multiset<std::string> wanted, found;
+    for (const GroundState& state : object->second) wanted.insert(asked.version.text(state));
+    for (const std::string& id : choice.activities) {
+      const Part& part = asked.version.parts[asked.version.part_of.at(id)];
+      if (part.parent != asked.part || part.aside == planned) continue;
+      if (planned && !wanted.contains(part.activity->name)) continue;
+      found.insert(part.activity->name);
+      if (!asked.version.network.implies(point.decide_before, part.start(), Duration{0}, temporal::no_bound))
+        return "choice '" + choice.name + "' may begin before it is decided";
+    }
+    if (found != wanted || (!planned && found.size() != choice.activities.size()))
+      return "choice '" + choice.name + "' has not just the activities of the behaviour for that object";
+  }
+  return named.size() == objects.size() ? "" : "it has not all objects that fulfil the behaviour's tests";
+}
+
 std::string fault(const Asked& asked, const temporal::DecisionPoint& point) {
   if (point.resolver_kind != asked.decision.resolver_kind || point.resolver != asked.decision.resolver)
     return "it is asked of somebody else than the behaviour says";
@@ -87,12 +141,33 @@ std::string fault(const Asked& asked, const temporal::DecisionPoint& point) {
     if (!asked.version.network.same_time(point.decide_before, before.end ? part.end() : part.start()))
       return "it need not be made before the point that the behaviour names";
   }
+  if (asked.decision.over) return object_fault(asked, point);
   return asked.decision.variable ? variable_fault(asked, point) : choice_fault(asked, point);
 }
 
 const model::Decision* decision_named(const model::Behaviour& behaviour, const std::string& name) {
   const auto found = std::ranges::find(behaviour.decisions, name, &model::Decision::name);
   return found == behaviour.decisions.end() ? nullptr : &*found;
+}
+
+// What is above a decision that may leave it undone must not be taken for done when it ends.
+std::string conclusion_fault(const Asked& asked) {
+  if (!asked.decision.may_end_plan()) return {};
+  for (Index above = asked.part; above != kNone; above = asked.version.parts[above].parent) {
+    const Part& part = asked.version.parts[above];
+    if (!part.state || !part.value) continue;
+    const auto& values = asked.version.timelines[part.state->component];
+    if (*part.value + 1 >= values.size()) continue;
+    const auto& observed = asked.version.definition(values[*part.value + 1].state).observed;
+    for (const temporal::Impact& impact : part.activity->impacts)
+      if (observed && impact.timeline == observed->timeline &&
+          impact.moment == temporal::ImpactWhen::at_end &&
+          temporal::to_text(impact.amount).starts_with(observed->word) &&
+          values[*part.value + 1].state != values[*part.value - 1].state)
+        return "whatever is decided, " + part.activity->name + " ends with " +
+               asked.version.text(values[*part.value + 1].state);
+  }
+  return {};
 }
 
 void check_point(const Version& version, const Decompositions& decompositions,
@@ -105,7 +180,9 @@ void check_point(const Version& version, const Decompositions& decompositions,
   for (const Decomposition& way : decompositions[part->second]) {
     const auto* decision = decision_named(version.model.behaviours[way.behaviour], point.id.substr(dot + 1));
     if (decision == nullptr) continue;
-    why_not = fault({version, part->second, way, *decision}, point);
+    const Asked asked{version, part->second, way, *decision};
+    why_not = fault(asked, point);
+    if (why_not.empty()) why_not = conclusion_fault(asked);
     if (why_not.empty()) return;
   }
   if (!decompositions[part->second].empty()) out.push_back("decision " + point.id + ": " + why_not);
@@ -124,8 +201,10 @@ void check_decisions(const Version& version, const Decompositions& decomposition
     const Decomposition& way = decompositions[part].front();
     for (const model::Decision& decision : version.model.behaviours[way.behaviour].decisions) {
       const std::string id = version.parts[part].activity->id + "." + decision.name;
-      const bool binds_nothing = decision.variable && bound_arguments({version, part, way, decision}).empty();
-      if (!open.contains(id) && !binds_nothing)
+      const Asked asked{version, part, way, decision};
+      const bool nothing_to_decide = decision.over ? objects_to_choose(asked).size() < 2
+                                                   : decision.variable && bound_arguments(asked).empty();
+      if (!open.contains(id) && !nothing_to_decide)
         out.push_back("decision '" + decision.name + "' of " + version.text(version.parts[part]) +
                       " is not open in the plan");
     }

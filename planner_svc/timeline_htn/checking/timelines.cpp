@@ -102,10 +102,7 @@ void check_command(const Version& version, const Part& part, Faults& out) {
                  ", is not that of its state, " + command->name + " of " + command->owner);
   std::vector<temporal::Property> arguments;
   for (const model::Argument& argument : command->arguments)
-    arguments.push_back(
-        {argument.name,
-         argument.term ? version.model.objects[model::object_of(*argument.term, part.state->objects)].name
-                       : argument.text});
+    arguments.push_back({argument.name, model::text_of(version.model, argument, part.state->objects)});
   if (activity.arguments != arguments) fault("the arguments of its command are not those of its state");
 }
 

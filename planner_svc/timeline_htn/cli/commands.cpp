@@ -82,8 +82,9 @@ const char* word(search::Outcome outcome) {
 }
 
 // Plans, and tells why not where there is no plan.
-std::optional<FlexiblePlan> solve(search::Search& search, const PlanOptions& options, const Output& output) {
-  const search::Outcome outcome = search.run(options.work, options.memory_bytes, [] { return false; });
+std::optional<FlexiblePlan> solve(const search::Resolution& resolution, const Output& output) {
+  const search::Outcome outcome = resolution.outcome;
+  const search::Search& search = *resolution.search;
   if (outcome == search::Outcome::solved)
     return extraction::plan_of(search, {"plan", "a", temporal::Time{0}});
   if (output.json) {
@@ -93,6 +94,11 @@ std::optional<FlexiblePlan> solve(search::Search& search, const PlanOptions& opt
     output.errors << word(outcome) << ": " << search.reason() << '\n';
   }
   return std::nullopt;
+}
+
+search::Resolution resolve(const Model& model, const PlanOptions& options) {
+  return search::resolve(model, options.resolvers, options.threads, options.work, options.memory_bytes,
+                         [] { return false; });
 }
 
 std::size_t depth_of(const FlexiblePlan& plan, const PlanActivity& activity) {
@@ -173,13 +179,13 @@ ExitCode check(const Files& files, const Output& output) {
 ExitCode plan(const Files& files, const PlanOptions& options, const Output& output) {
   const auto model = load(files, output);
   if (!model) return faulty;
-  search::Search search(*model, options.resolver);
-  const auto plan = solve(search, options, output);
+  const search::Resolution resolution = resolve(*model, options);
+  const auto plan = solve(resolution, output);
   if (!plan) return unsolved;
   temporal::ExecutionWindows windows(plan->point_count, temporal::all_constraints(*plan),
                                      temporal::Duration{0});
   windows.settle();
-  const auto& count = search.count();
+  const auto& count = resolution.search->count();
   if (output.json) {
     nlohmann::ordered_json json = {{"verdict", "solved"}};
     json["statistics"] = {{"expanded", count.expanded},
@@ -210,8 +216,7 @@ ExitCode matrix(const Files& files, const PlanOptions& options, const std::strin
                 const Output& output) {
   const auto model = load(files, output);
   if (!model) return faulty;
-  search::Search search(*model, options.resolver);
-  const auto plan = solve(search, options, output);
+  const auto plan = solve(resolve(*model, options), output);
   if (!plan) return unsolved;
   const extraction::Matrix matrix = extraction::matrix_of(*plan);
   if (form == "json") {

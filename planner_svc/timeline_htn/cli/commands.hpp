@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "planner_svc/timeline_htn/search/search.hpp"
+#include "planner_svc/timeline_htn/search/resolvers.hpp"
 
 namespace roci::planner::timeline_htn::cli {
 
@@ -24,7 +24,8 @@ struct Output {
 using Files = std::vector<std::filesystem::path>;
 
 struct PlanOptions {
-  search::Resolver resolver;
+  std::vector<search::Resolver> resolvers{search::Resolver{}};  ///< that search side by side
+  std::size_t threads = 1;
   std::uint64_t work = 10'000'000;  ///< steps of the search
   std::size_t memory_bytes = 1U << 30U;
 };

@@ -20,6 +20,7 @@ int run_command_line(int argc, char** argv) {
   bool json = false;
   PlanOptions options;
   std::string form = "text";
+  std::vector<std::string> resolvers;
   const auto command = [&](const char* name, const char* help) {
     CLI::App* out = app.add_subcommand(name, help);
     out->add_option("FILE", files, "domain, behaviours and problem, in one file or several")->required();
@@ -30,8 +31,15 @@ int run_command_line(int argc, char** argv) {
         {"blind", search::Heuristic::blind},
         {"relaxed_plan", search::Heuristic::relaxed_plan},
         {"landmarks", search::Heuristic::landmarks}};
-    out->add_option("--heuristic", options.resolver.heuristic, "blind, relaxed_plan or landmarks")
+    out->add_option("--heuristic", options.resolvers.front().heuristic, "blind, relaxed_plan or landmarks")
         ->transform(CLI::CheckedTransformer(heuristics));
+    out->add_option(
+           "--resolvers", resolvers,
+           "heuristics that search side by side, the plan of the one with the least work counts; with "
+           "_last behind one it tries the last of equal things first")
+        ->check(CLI::IsMember(search::resolver_names()));
+    out->add_option("--threads", options.threads, "on which they run; the plan is the same for any number")
+        ->check(CLI::Range(1, 64));
     out->add_option("--work", options.work, "steps of the search, at most");
   };
   CLI::App* check_command = command("check", "Tells all that is wrong with it, with file, line and remedy");
@@ -48,6 +56,8 @@ int run_command_line(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? done : wrong_use;
   }
+  if (!resolvers.empty()) options.resolvers.clear();
+  for (const std::string& name : resolvers) options.resolvers.push_back(*search::resolver_named(name));
   const Output output{std::cout, std::cerr, json};
   if (*check_command) return check(files, output);
   if (*plan_command) return plan(files, options, output);

@@ -27,13 +27,15 @@ class Extraction {
         bindings_(search.bindings()),
         model_(search.ground().model()),
         head_(head),
-        shown_(plan_.activities().size(), kNone) {}
+        shown_(plan_.activities().size(), kNone),
+        left_(plan_.activities().size(), false) {}
 
   FlexiblePlan run() {
     out_.id = head_.id;
     out_.engine = "timeline_htn";
     out_.origin = head_.origin;
     number_points();
+    find_left();
     for (Index i = 0; i < plan_.activities().size(); ++i)
       if (is_shown(plan_.activities()[i])) {
         shown_[i] = static_cast<Index>(out_.activities.size());
@@ -41,6 +43,7 @@ class Extraction {
       }
     for (Index i = 0; i < plan_.activities().size(); ++i)
       if (shown_[i] != kNone) fill(i, out_.activities[shown_[i]]);
+    add_marks();
     for (Index c = 0; c < model_.components.size(); ++c) add_tokens(c);
     add_constraints();
     for (Index i = 0; i < plan_.activities().size(); ++i)
@@ -116,7 +119,11 @@ class Extraction {
     out.retries = definition.retries;
     if (definition.command) fill_command(*definition.command, state, out);
     fill_conditions(one, out);
-    if (one.token != kNone) fill_impacts(one, out);
+    if (one.token != kNone) {
+      fill_impacts(one, out);
+    } else if (one.choice != kNone && !definition.command) {
+      leave(state, out);
+    }
   }
 
   // What is seen of its timeline while it lasts, and of the default state behind it: who looks ahead finds there what brings a value
@@ -129,9 +136,74 @@ class Extraction {
             {observed->timeline, temporal::ImpactKind::assign, moment, observed_value(state)});
     };
     add(one.state, temporal::ImpactWhen::during);  // gives way where the activity fails
-    const StateId after = next_state(one.token);
+    StateId after = next_state(one.token);
+    if (may_be_left(static_cast<Index>(&one - plan_.activities().data())))
+      after =
+          plan_.tokens()[plan_.tokens()[one.token].before].state;  // a mark says what it has brought about
     if (after != kNone && ground_.at(after).kind == StateKind::resting)
       add(after, temporal::ImpactWhen::at_end);
+  }
+
+  // What a choice without a command leaves: a new plan begins from there. Of a command that is seen.
+  void leave(const model::GroundState& state, PlanActivity& out) const {
+    for (const model::Transition& transition : model_.components[state.component].transitions) {
+      const model::State& after = model_.components[state.component].states[transition.to];
+      if (transition.from != state.state || after.kind != StateKind::resting || !after.observed) continue;
+      std::vector<Index> bound(transition.variables.size(), kNone), objects;
+      bool fits = true;
+      for (std::size_t i = 0; i < transition.from_terms.size() && fits; ++i) {
+        const Term& term = transition.from_terms[i];
+        if (!term.object && bound[term.index] == kNone) bound[term.index] = state.objects[i];
+        fits = model::object_of(term, bound) == state.objects[i];
+      }
+      for (const Term& term : transition.to_terms) objects.push_back(model::object_of(term, bound));
+      if (!fits || std::ranges::find(objects, kNone) != objects.end()) continue;
+      out.impacts.push_back({after.observed->timeline, temporal::ImpactKind::assign,
+                             temporal::ImpactWhen::at_end, seen_as(*after.observed, objects)});
+      return;
+    }
+  }
+
+  // Whether a decision below a complex state may leave it undone.
+  bool may_be_left(Index activity) const {
+    return left_[activity] && plan_.activities()[activity].token != kNone &&
+           ground_.at(plan_.activities()[activity].state).kind == StateKind::complex;
+  }
+  void find_left() {
+    for (Index i = 0; i < plan_.activities().size(); ++i) {
+      const Index behaviour = plan_.activities()[i].behaviour;
+      if (behaviour == kNone ||
+          std::ranges::none_of(model_.behaviours[behaviour].decisions, &model::Decision::may_end_plan))
+        continue;
+      for (Index above = i; above != kNone && !left_[above]; above = plan_.activities()[above].parent)
+        left_[above] = true;
+    }
+  }
+
+  // What such a state has brought about is an activity of its own behind it, so that it is skipped where a decision leaves the state undone.
+  void add_marks() {
+    for (Index i = 0; i < plan_.activities().size(); ++i) {
+      if (shown_[i] == kNone || !may_be_left(i)) continue;
+      const Token& token = plan_.tokens()[plan_.activities()[i].token];
+      const StateId after = next_state(plan_.activities()[i].token);
+      if (after == kNone || ground_.at(after).kind != StateKind::resting ||
+          !ground_.definition(after).observed)
+        continue;
+      PlanActivity mark;
+      mark.id = head_.prefix + std::to_string(out_.activities.size());
+      mark.name = ground_.text(after);
+      mark.level = out_.activities[shown_[i]].level;
+      mark.parent = out_.activities[shown_[i]].parent;
+      mark.goals_served = out_.activities[shown_[i]].goals_served;
+      mark.start_point = point_[token.end];
+      mark.end_point = out_.point_count++;
+      mark.duration_upper = Duration{0};
+      mark.lateness = temporal::LatenessPolicy::deadline;
+      mark.impacts.push_back({ground_.definition(after).observed->timeline, temporal::ImpactKind::assign,
+                              temporal::ImpactWhen::at_end, observed_value(after)});
+      marks_.emplace_back(token.end, mark.id);
+      out_.activities.push_back(std::move(mark));
+    }
   }
 
   void fill_command(const model::Command& command, const model::GroundState& state, PlanActivity& out) const {
@@ -141,9 +213,7 @@ class Extraction {
     out.command_name = command.name;
     out.answer_within = command.answer_within;
     for (const model::Argument& argument : command.arguments)
-      out.arguments.push_back(
-          {argument.name, argument.term ? model_.objects[model::object_of(*argument.term, state.objects)].name
-                                        : argument.text});
+      out.arguments.push_back({argument.name, model::text_of(model_, argument, state.objects)});
   }
 
   // What others must be seen in at the start and all the while; what is seen of its own timeline in the end.
@@ -280,6 +350,8 @@ class Extraction {
     for (Index i = 0; i < plan_.activities().size(); ++i)
       if (shown_[i] != kNone && reached[plan_.activities()[i].start] != 0)
         ids.insert(out_.activities[shown_[i]].id);
+    for (const auto& [start, id] : marks_)
+      if (reached[start] != 0) ids.insert(id);
   }
 
   Index part(Index activity, Index subgoal) const {
@@ -299,7 +371,9 @@ class Extraction {
       const Activity& before = plan_.activities()[subject];
       const TimePoint point = decision.before.end ? before.end : before.start;
       out.decide_before = point_[point];
-      if (decision.variable) {
+      if (decision.over) {
+        choose_object(activity, decision, point, out);
+      } else if (decision.variable) {
         bind(activity, behaviour, *decision.variable, out);
       } else {
         choose(activity, decision, point, out);
@@ -310,19 +384,42 @@ class Extraction {
 
   void choose(Index activity, const model::Decision& decision, TimePoint point,
               temporal::DecisionPoint& out) const {
-    std::set<std::string> aside;
-    for (std::size_t c = decision.choices.size(); c > 0; --c) {
-      const model::Choice& choice = decision.choices[c - 1];
-      std::set<std::string> ids;
-      for (const Index subgoal : choice.subgoals) below(part(activity, subgoal), ids);
-      if (c == 1) {
-        behind(point, ids);
-        for (const std::string& id : aside) ids.erase(id);
-      }
-      aside.insert(ids.begin(), ids.end());
-      out.choices.push_back({choice.name, {ids.begin(), ids.end()}, choice.rule});
+    std::vector<std::set<std::string>> own(decision.choices.size());
+    std::set<std::string> after;
+    behind(point, after);
+    for (std::size_t c = 0; c < own.size(); ++c) {
+      for (const Index subgoal : decision.choices[c].subgoals) below(part(activity, subgoal), own[c]);
+      for (const std::string& id : own[c]) after.erase(id);
     }
-    std::ranges::reverse(out.choices);
+    for (std::size_t c = 0; c < own.size(); ++c) {
+      const model::Choice& choice = decision.choices[c];
+      if (c == 0 || choice.instead) own[c].insert(after.begin(), after.end());
+      out.choices.push_back({choice.name, {own[c].begin(), own[c].end()}, choice.rule});
+    }
+  }
+
+  // The object that the plan reckons with first, then the others as they stand in the model.
+  void choose_object(Index activity, const model::Decision& decision, TimePoint point,
+                     temporal::DecisionPoint& out) const {
+    std::map<Index, std::set<std::string>> others;
+    for (Index i = 0; i < plan_.activities().size(); ++i) {
+      const Activity& one = plan_.activities()[i];
+      if (one.parent == activity && one.choice != kNone &&
+          std::ranges::find(decision.subgoals, one.subgoal) != decision.subgoals.end())
+        others[one.choice].insert(out_.activities[shown_[i]].id);
+    }
+    if (others.empty()) return;
+    std::set<std::string> ids;
+    for (const Index subgoal : decision.subgoals) below(part(activity, subgoal), ids);
+    behind(point, ids);
+    for (const auto& [object, aside] : others)
+      for (const std::string& id : aside) ids.erase(id);
+    const auto& objects = bindings_.at(plan_.activities()[activity].binding);
+    out.choices.push_back(
+        {model_.objects[objects[*decision.variable]].name, {ids.begin(), ids.end()}, temporal::Condition{}});
+    for (const auto& [object, aside] : others)
+      out.choices.push_back(
+          {model_.objects[object].name, {aside.begin(), aside.end()}, temporal::Condition{}});
   }
 
   void bind(Index activity, const Behaviour& behaviour, Index variable, temporal::DecisionPoint& out) const {
@@ -347,8 +444,10 @@ class Extraction {
   const model::Model& model_;
   const Head& head_;
   std::vector<Index> shown_;  // activity of the plan, by activity of the partial plan
+  std::vector<bool> left_;    // is above a decision that may leave undone what is planned behind it
   std::vector<TimePoint> point_;
   std::map<TimePoint, TimePoint> same_;
+  std::vector<std::pair<TimePoint, std::string>> marks_;  // start in the partial plan, id
   FlexiblePlan out_;
 };
 

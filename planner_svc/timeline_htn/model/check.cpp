@@ -68,6 +68,24 @@ void check_components(Complaints& complaints) {
 void check_decision(Complaints& complaints, const Behaviour& behaviour, const Decision& decision,
                     std::set<Index>& chosen) {
   const Model& model = complaints.model;
+  if (decision.over && behaviour.achieves &&
+      std::ranges::find(behaviour.achieves->terms, Term{*decision.variable, false}) !=
+          behaviour.achieves->terms.end())
+    complaints.error("decision '" + decision.name + "' is over '" +
+                         behaviour.variables[*decision.variable].name + "', which it achieves",
+                     "name a variable of its own");
+  for (const Index index : decision.subgoals) {
+    const Subgoal& subgoal = behaviour.subgoals[index];
+    if (!chosen.insert(index).second)
+      complaints.error("subgoal '" + subgoal.name + "' stands in two choices",
+                       "give each choice subgoals of its own");
+    const State& state = model.components[subgoal.state.component].states[subgoal.state.state];
+    if (state.kind != StateKind::simple ||
+        std::ranges::find(subgoal.state.terms, Term{*decision.variable, false}) == subgoal.state.terms.end())
+      complaints.error("subgoal '" + subgoal.name + "' of decision '" + decision.name +
+                           "' is not simple, or is the same whatever is decided",
+                       "name a simple state of the variable; the plan is made anew behind it");
+  }
   for (std::size_t c = 0; c < decision.choices.size(); ++c) {
     for (const Index index : decision.choices[c].subgoals) {
       const Subgoal& subgoal = behaviour.subgoals[index];

@@ -106,4 +106,10 @@ std::optional<Bounds> bounds(const Model& model, const State& state, std::span<c
   return Bounds{*shortest, *longest};
 }
 
+std::string text_of(const Model& model, const Argument& argument, std::span<const Index> objects) {
+  if (!argument.term) return argument.text;
+  const std::string& object = model.objects[object_of(*argument.term, objects)].name;
+  return argument.property.empty() ? object : object + "." + argument.property;
+}
+
 }  // namespace roci::planner::timeline_htn::model

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <span>
+#include <string>
 
 #include "planner_svc/timeline_htn/model/model.hpp"
 
@@ -31,5 +32,9 @@ std::optional<Bounds> bounds(const Model& model, const State& state, std::span<c
 inline Index object_of(const Term& term, std::span<const Index> objects) {
   return term.object ? term.index : objects[term.index];
 }
+
+/// Returns what a command is given where these objects stand for the parameters of its state: "w1"; "w1.x" for a property, in whose
+/// place the executive puts the value.
+std::string text_of(const Model& model, const Argument& argument, std::span<const Index> objects);
 
 }  // namespace roci::planner::timeline_htn::model

@@ -108,6 +108,7 @@ struct Argument {
   std::string name;
   std::string text;          ///< without a term: the value as it is
   std::optional<Term> term;  ///< the name of what stands for it
+  std::string property;      ///< of that object, which the executive knows; empty: the object's name itself
   friend bool operator==(const Argument&, const Argument&) = default;
 };
 
@@ -199,11 +200,12 @@ struct Choice {
   std::string name;
   std::vector<Index> subgoals;
   temporal::Condition rule;  ///< of observed timelines; empty: always true
+  bool instead = false;      ///< brings about the same as the first one, so that the plan goes on behind it
   friend bool operator==(const Choice&, const Choice&) = default;
 };
 
-/// Is a decision that the plan leaves open (R131): a choice among groups of subgoals, of which the plan reckons with the first, or the
-/// value of a variable.
+/// Is a decision that the plan leaves open (R131): a choice among groups of subgoals, of which the plan reckons with the first; the value
+/// of a variable in the arguments of commands; or what else a variable might stand for, of which the plan reckons with one object.
 struct Decision {
   std::string name;
   temporal::ResolverKind resolver_kind = temporal::ResolverKind::ground;
@@ -211,6 +213,18 @@ struct Decision {
   Point before;
   std::vector<Choice> choices;
   std::optional<Index> variable;
+  bool over = false;  ///< each object of the variable is a choice: what is planned behind it depends on it
+  /// Of a decision over a variable: what is done of each choice before the plan is refined.
+  std::vector<Index> subgoals;
+
+  /// Returns whether some answer leaves undone what is planned behind the decision.
+  bool may_end_plan() const {
+    for (std::size_t c = 1; c < choices.size(); ++c)
+      if (!choices[c].instead) return true;
+    return over;
+  }
+  /// Returns whether an answer binds arguments.
+  bool binds() const { return variable && !over; }
   friend bool operator==(const Decision&, const Decision&) = default;
 };
 

@@ -200,7 +200,7 @@ class BehaviourReader {
   }
 
   void read_decision(const std::string& name, const Entry& entry) {
-    entry.allow_only({"resolver", "asks", "before", "choices", "binds"});
+    entry.allow_only({"resolver", "asks", "before", "choices", "binds", "over", "subgoals"});
     decisions_.add(name, entry);
     model::Decision decision;
     decision.name = name;
@@ -217,16 +217,25 @@ class BehaviourReader {
     Line before(entry.at("before"));
     decision.before = point(before);
     before.expect_end();
-    const auto choices = entry.find("choices"), binds = entry.find("binds");
-    if (choices.has_value() == binds.has_value())
-      entry.fail("a decision has either 'choices' or a variable that it 'binds'; write one of them");
-    if (binds) {
-      const auto variable = std::ranges::find(scope_.variables, binds->text(), &Variable::name);
+    const auto choices = entry.find("choices"), binds = entry.find("binds"), over = entry.find("over");
+    if (choices.has_value() + binds.has_value() + over.has_value() != 1)
+      entry.fail(
+          "a decision has either 'choices', a variable that it 'binds', or one that it is 'over'; write one "
+          "of "
+          "them");
+    if (!over && entry.find("subgoals"))
+      entry.at("subgoals").fail("subgoals stand here of a decision 'over' a variable alone; take them out");
+    if (const auto& of = binds ? binds : over) {
+      const auto variable = std::ranges::find(scope_.variables, of->text(), &Variable::name);
       if (variable == scope_.variables.end())
-        binds->fail("'" + binds->text() + "' is no variable of the behaviour; declare it under 'variables'");
+        of->fail("'" + of->text() + "' is no variable of the behaviour; declare it under 'variables'");
       if (decision.resolver_kind == temporal::ResolverKind::rule)
-        resolver.fail("a rule picks among choices; let ground or engine bind the variable");
+        resolver.fail(
+            "a rule picks among choices that are named; let ground or engine decide on the variable");
       decision.variable = static_cast<Index>(variable - scope_.variables.begin());
+      decision.over = over.has_value();
+      if (over) decision.subgoals = subgoals_of(entry);
+      if (binds) refuse_property_of(*decision.variable, *binds);
     } else {
       for (const auto& [choice, value] : fields(*choices, model::kMostInList))
         decision.choices.push_back(read_choice(choice, value));
@@ -235,16 +244,36 @@ class BehaviourReader {
     out_.decisions.push_back(std::move(decision));
   }
 
+  // An answer binds names of objects alone.
+  void refuse_property_of(Index variable, const Entry& binds) const {
+    for (const model::Subgoal& subgoal : out_.subgoals) {
+      const model::State& state =
+          vocabulary_.model.components[subgoal.state.component].states[subgoal.state.state];
+      if (!state.command) continue;
+      for (const model::Argument& argument : state.command->arguments)
+        if (argument.term && !argument.property.empty() &&
+            subgoal.state.terms[argument.term->index] == model::Term{variable, false})
+          binds.fail("'" + argument.text + "' of the command " + state.command->name +
+                     " is a property of what stays open; let the command have the object itself");
+    }
+  }
+
+  std::vector<Index> subgoals_of(const Entry& entry) {
+    std::vector<Index> out;
+    for (const Entry& one : one_or_more(entry.at("subgoals"), model::kMostInList)) {
+      out.push_back(names_.index(one.text(), one));
+      if (out.back() >= out_.subgoals.size())
+        one.fail("subgoal '" + one.text() + "' has a fault; mend that first");
+    }
+    return out;
+  }
+
   model::Choice read_choice(const std::string& name, const Entry& entry) {
-    entry.allow_only({"subgoals", "when"});
+    entry.allow_only({"subgoals", "when", "instead"});
     model::Choice out;
     out.name = name;
-    for (const Entry& one : one_or_more(entry.at("subgoals"), model::kMostInList)) {
-      const Index index = names_.index(one.text(), one);
-      if (index >= out_.subgoals.size())
-        one.fail("subgoal '" + one.text() + "' has a fault; mend that first");
-      out.subgoals.push_back(index);
-    }
+    out.subgoals = subgoals_of(entry);
+    out.instead = entry.truth_or("instead", false);
     const auto when = entry.find("when");
     if (!when) return out;
     std::vector<temporal::Condition> parts;

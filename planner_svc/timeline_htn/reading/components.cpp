@@ -52,9 +52,15 @@ model::Command read_command(const Entry& entry, const State& state, const std::s
       model::Argument& argument = out.arguments.emplace_back();
       argument.name = name;
       argument.text = value.text();
-      const auto parameter = std::ranges::find(state.parameters, argument.text, &Variable::name);
-      if (parameter != state.parameters.end())
-        argument.term = Term{static_cast<Index>(parameter - state.parameters.begin()), false};
+      const auto dot = argument.text.find('.');
+      const auto parameter =
+          std::ranges::find(state.parameters, argument.text.substr(0, dot), &Variable::name);
+      if (parameter == state.parameters.end()) continue;
+      argument.term = Term{static_cast<Index>(parameter - state.parameters.begin()), false};
+      if (dot == std::string::npos) continue;
+      argument.property = argument.text.substr(dot + 1);
+      if (argument.property.empty())
+        value.fail("'" + argument.text + "' names no property; write one behind the dot, or drop the dot");
     }
   }
   if (const auto within = entry.find("answer_within_s")) {

@@ -148,12 +148,12 @@ void put_states(const Request& request, Model& model, std::vector<Misfit>& misfi
     if (observation.state) model.problem->initial[c] = *observation.state;
     if (observation.state || (observation.seen.empty() && model.problem->initial[c])) continue;
     misfits.push_back(
-        {"",
-         "it is not known in which state '" + model.components[c].name + "' is" +
-             (observation.seen.empty()
-                  ? std::string(": no timeline of it was observed; say 'observed' of its states, or its state "
-                                "under 'initial'")
-                  : ": " + observation.seen + " is no value of its states; say 'observed' of one")});
+        {"", "it is not known in which state '" + model.components[c].name + "' is" +
+                 (observation.seen.empty()
+                      ? std::string(
+                            ": no timeline of it was observed; say 'observed' of its states, or its state "
+                            "under 'initial'")
+                      : ": " + observation.seen + " is no value of its states; say 'observed' of one")});
   }
 }
 

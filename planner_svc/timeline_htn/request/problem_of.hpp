@@ -31,7 +31,7 @@ std::vector<Misfit> put_request(const engine::Request& request, model::Model& mo
 /// Is what the timelines of a request show of a component.
 struct Observation {
   std::optional<model::Pattern> state;  ///< of objects alone; nothing: none of its states is seen
-  std::string seen;                     ///< "nav = parked(wp1)", also where that is no state of it; empty: nothing
+  std::string seen;  ///< "nav = parked(wp1)", also where that is no state of it; empty: nothing
 };
 Observation observed_state(const engine::Request& request, const model::Model& model, model::Index component);
 

@@ -6,6 +6,24 @@
 
 namespace roci::planner::timeline_htn::search {
 
+std::optional<Decompositions::Way> Decompositions::way_of(Index index, const std::vector<Index>& objects) {
+  const model::Behaviour& behaviour = ground_->model().behaviours[index];
+  std::vector<bool> beside(behaviour.subgoals.size(), false);
+  for (const auto& decision : behaviour.decisions)
+    for (std::size_t choice = 1; choice < decision.choices.size(); ++choice)
+      for (const Index subgoal : decision.choices[choice].subgoals) beside[subgoal] = true;
+  Way way;
+  for (std::size_t s = 0; s < behaviour.subgoals.size(); ++s) {
+    const model::Pattern& pattern = behaviour.subgoals[s].state;
+    model::GroundState part{pattern.component, pattern.state, {}};
+    for (const auto& term : pattern.terms) part.objects.push_back(model::object_of(term, objects));
+    const StateId number = ground_->find(part);
+    if (number == kNone) return std::nullopt;
+    if (!beside[s]) way.parts.push_back(number);
+  }
+  return way;
+}
+
 // Finds the complex states below one that were not measured yet, with their ways.
 std::vector<StateId> Decompositions::explore(StateId root) {
   std::vector<StateId> found;
@@ -17,29 +35,15 @@ std::vector<StateId> Decompositions::explore(StateId root) {
     const model::GroundState ground = ground_->at(state).state;
     std::vector<Way> ways;
     for (const Index index : successors_->behaviours(ground.component, ground.state)) {
-      const model::Behaviour& behaviour = ground_->model().behaviours[index];
-      std::vector<bool> beside(behaviour.subgoals.size(), false);
-      for (const auto& decision : behaviour.decisions)
-        for (std::size_t choice = 1; choice < decision.choices.size(); ++choice)
-          for (const Index subgoal : decision.choices[choice].subgoals) beside[subgoal] = true;
       for (const auto& objects : successors_->ways(index, state)) {
-        Way way;
-        bool exists = true;
-        for (std::size_t s = 0; s < behaviour.subgoals.size() && exists; ++s) {
-          const model::Pattern& pattern = behaviour.subgoals[s].state;
-          model::GroundState part{pattern.component, pattern.state, {}};
-          for (const auto& term : pattern.terms) part.objects.push_back(model::object_of(term, objects));
-          const StateId number = ground_->find(part);
-          exists = number != kNone;
-          if (exists && !beside[s]) way.parts.push_back(number);
-        }
-        if (!exists) continue;
-        for (const StateId part : way.parts)
+        std::optional<Way> way = way_of(index, objects);
+        if (!way) continue;
+        for (const StateId part : way->parts)
           if (is_complex(part) && !entries_.contains(part)) {
             entries_[part];
             found.push_back(part);
           }
-        ways.push_back(std::move(way));
+        ways.push_back(std::move(*way));
       }
     }
     entries_[state].ways = std::move(ways);
@@ -125,7 +129,7 @@ Decompositions::Entry& Decompositions::entry(StateId state) {
 }
 
 bool Decompositions::derivable_without(StateId root, const std::vector<StateId>& excluded) {
-  if (entry(root).values == kNone) return false;
+  if (!derivable(root)) return false;
   const auto is_excluded = [&](StateId state) { return std::ranges::binary_search(excluded, state); };
   if (is_excluded(root)) return false;
   std::vector<StateId> below{root};
@@ -153,6 +157,12 @@ bool Decompositions::derivable_without(StateId root, const std::vector<StateId>&
 bool Decompositions::derivable(StateId state) {
   if (const std::vector<StateId> found = explore(state); !found.empty()) measure(found);
   return entries_[state].values != kNone;
+}
+
+bool Decompositions::derivable(Index behaviour, const std::vector<Index>& objects) {
+  const std::optional<Way> way = way_of(behaviour, objects);
+  return !way ||
+         std::ranges::all_of(way->parts, [&](StateId part) { return !is_complex(part) || derivable(part); });
 }
 
 std::uint32_t Decompositions::values(StateId state) { return entry(state).values; }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <unordered_map>
 #include <vector>
 
@@ -14,14 +15,17 @@ class Decompositions {
  public:
   Decompositions(Ground& ground, const Successors& successors) : ground_(&ground), successors_(&successors) {}
 
-  /// Returns whether behaviours make a state up at all. Of one object of this class either this is asked or what stands below.
+  /// Returns whether behaviours make a state up at all. Of one object of this class either what begins with this is asked or
+  /// values and landmarks.
   bool derivable(StateId state);
+  /// Returns whether all parts of a behaviour with these objects can be made up: else it leads nowhere, whatever the timelines.
+  bool derivable(Index behaviour, const std::vector<Index>& objects);
+  /// Returns whether behaviours make a complex state up without any of these states below it, which are sorted.
+  bool derivable_without(StateId state, const std::vector<StateId>& excluded);
   /// Returns the fewest values that a state needs, itself counted and those to rest in not; kNone: no behaviours make it up.
   std::uint32_t values(StateId state);
   /// Returns states without which it cannot come about, itself among them, sorted: those that all its ways share.
   const std::vector<StateId>& landmarks(StateId state);
-  /// Returns whether behaviours make a complex state up without any of these states below it, which are sorted.
-  bool derivable_without(StateId state, const std::vector<StateId>& excluded);
 
  private:
   struct Way {  // one behaviour with its objects
@@ -34,6 +38,8 @@ class Decompositions {
     std::vector<StateId> landmarks;
   };
 
+  // The parts that a plan reckons with; nothing: one of them does not exist.
+  std::optional<Way> way_of(Index behaviour, const std::vector<Index>& objects);
   bool is_complex(StateId state) const { return ground_->at(state).kind == model::StateKind::complex; }
   Entry& entry(StateId state);
   std::vector<StateId> explore(StateId state);

@@ -112,6 +112,12 @@ std::vector<Test> renumbered(std::vector<Test> tests, const std::vector<Term>& t
 
 }  // namespace
 
+GroundState ground_of(const Pattern& pattern, const std::vector<Index>& objects) {
+  GroundState out{pattern.component, pattern.state, {}};
+  for (const Term& term : pattern.terms) out.objects.push_back(model::object_of(term, objects));
+  return out;
+}
+
 Ground::Ground(const Model& model)
     : model_(&model), objects_of_(model.types.size()), by_component_(model.components.size()) {
   for (Index i = 0; i < model.objects.size(); ++i) objects_of_[model.objects[i].type].push_back(i);

@@ -20,6 +20,9 @@ inline constexpr Index kNone = ~Index{0};
 /// Is a set of components: the bit of each by its number.
 using ComponentSet = std::uint64_t;
 
+/// Returns the state of a pattern whose variables stand for these objects.
+model::GroundState ground_of(const model::Pattern& pattern, const std::vector<Index>& objects);
+
 /// Is what a timeline can hold.
 struct Instance {
   model::GroundState state;

@@ -42,8 +42,9 @@ struct Activity {
   Index before_begin = 0;   ///< activities that end before it starts, in PartialPlan::before()
   Index before_end = 0;
   bool placed = false;
-  bool nested = false;  ///< within a state of its own timeline
-  bool beside = false;  ///< of a choice that the plan does not reckon with
+  bool nested = false;   ///< within a state of its own timeline
+  bool beside = false;   ///< of a choice that the plan does not reckon with
+  Index choice = kNone;  ///< of a decision over a variable, beside: the object that it stands for
 };
 
 /// Says what must be settled before anything else, or nothing.
@@ -206,6 +207,8 @@ class PartialPlan {
   bool follow(Index component, const model::Pattern& pattern, const std::vector<Index>& objects,
               Index activity);
   bool add_parts(Index activity, const model::Behaviour& behaviour, const std::vector<Index>& objects);
+  bool add_choices(Index activity, const model::Behaviour& behaviour, const model::Decision& decision,
+                   const std::vector<Index>& objects, Index first);
   bool add_part_constraints(Index activity, const model::Behaviour& behaviour,
                             const std::vector<Index>& objects, Index first);
   bool meet_need(Index token, Index need, Index other);

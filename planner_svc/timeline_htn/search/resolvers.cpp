@@ -6,12 +6,18 @@
 #include <limits>
 #include <optional>
 #include <thread>
+#include <utility>
 
 namespace roci::planner::timeline_htn::search {
 
 namespace {
 
 constexpr std::uint64_t kFirstRound = 1000;
+
+constexpr std::pair<const char*, Heuristic> kHeuristics[] = {{"blind", Heuristic::blind},
+                                                             {"relaxed_plan", Heuristic::relaxed_plan},
+                                                             {"landmarks", Heuristic::landmarks}};
+constexpr std::string_view kLast = "_last";
 
 // Runs the jobs on threads; what one throws is thrown again.
 void run_all(std::size_t jobs, std::size_t threads, const std::function<void(std::size_t)>& run) {
@@ -40,6 +46,29 @@ void run_all(std::size_t jobs, std::size_t threads, const std::function<void(std
 }
 
 }  // namespace
+
+std::optional<Resolver> resolver_named(std::string_view name) {
+  Resolver out;
+  if (name.ends_with(kLast)) {
+    out.order = Order::last_declared;
+    name.remove_suffix(kLast.size());
+  }
+  for (const auto& [word, heuristic] : kHeuristics)
+    if (name == word) {
+      out.heuristic = heuristic;
+      return out;
+    }
+  return std::nullopt;
+}
+
+std::vector<std::string> resolver_names() {
+  std::vector<std::string> out;
+  for (const auto& [word, heuristic] : kHeuristics) {
+    out.emplace_back(word);
+    out.push_back(out.back() + std::string(kLast));
+  }
+  return out;
+}
 
 Resolution resolve(const model::Model& model, const std::vector<Resolver>& resolvers, std::size_t threads,
                    std::uint64_t evaluations, std::size_t memory_bytes,

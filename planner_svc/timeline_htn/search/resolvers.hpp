@@ -5,11 +5,20 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "planner_svc/timeline_htn/search/search.hpp"
 
 namespace roci::planner::timeline_htn::search {
+
+/// Returns the resolver of a name: that of a heuristic (blind, relaxed_plan, landmarks), with "_last" behind it where the last of equal
+/// things is tried first; nothing for any other text.
+std::optional<Resolver> resolver_named(std::string_view name);
+/// Returns all such names.
+std::vector<std::string> resolver_names();
 
 struct Resolution {
   Outcome outcome = Outcome::searching;

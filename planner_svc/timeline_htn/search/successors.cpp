@@ -183,7 +183,8 @@ void Successors::decompositions(const PartialPlan& plan, Index activity, std::ve
     auto all = ways(behaviour, state);
     if (order_ == Order::last_declared) std::ranges::reverse(all);
     for (const auto& objects : all)
-      if (recursion_can_end(plan, activity, behaviour, objects)) add(behaviour, bindings_->number(objects));
+      if (below_->derivable(behaviour, objects) && recursion_can_end(plan, activity, behaviour, objects))
+        add(behaviour, bindings_->number(objects));
   }
   if (out.empty())
     obstacle_ = {Obstacle::Kind::no_behaviour, plan.activities()[activity].goal, state, kNone, kNone, kNone};

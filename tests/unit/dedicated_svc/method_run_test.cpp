@@ -152,6 +152,23 @@ TEST(MethodRun, AnErrorThatIsNotRepairedAnyMoreStands) {
   EXPECT_EQ(run.failed({.error = "stalled"}, example().rest), state("failed"));
 }
 
+TEST(MethodRun, ARepairMayShowAStateOfItsOwn) {
+  const Methods methods = methods::read_methods(
+      mission::Entry::parse(
+          "dedicated: {timeline: t, subsystem: s, methods: {go: {arguments: [to], calls: [{name: a, wait_s: "
+          "1}], "
+          "repairs: {fault: {calls: [{name: b, wait_s: 1}], shows: [mending, \"{to}\"]}}}}}",
+          "m")
+          .at("dedicated"));
+  MethodRun run(methods.methods.at("go"), {{"to", "x"}});
+  run.begin();
+  EXPECT_EQ(run.during(), state("go", {"x"}));
+  run.take(error("fault"), {});
+  EXPECT_EQ(run.during(), state("mending", {"x"}));
+  run.take({}, {});
+  EXPECT_EQ(run.during(), state("go", {"x"}));
+}
+
 TEST(MethodRun, WhatIsShownAndToldInTheEndMayBeOfOneCallsError) {
   const Methods methods = methods::read_methods(mission::Entry::parse(R"(
 dedicated:

@@ -60,6 +60,11 @@ TEST_F(SoleOwner, AnotherOwnerOfTheComponentIsNamed) {
 TEST_F(SoleOwner, AnotherDedicatedExecutiveOfTheTimelineIsNamed) {
   mission("  - {name: b, program: dedicated_svc, robot: scout, settings: b.yaml}\n");
   EXPECT_THAT(told(), HasSubstr("'scout.locomotion' is shown by b, too (b.yaml)"));
+  mission(
+      "  - {name: b, program: dedicated_svc, robot: scout, settings: b.yaml}\n"
+      "components:\n  - {name: scout, timeline: scout.locomotion, owner: a}\n");
+  EXPECT_EQ(told(), "") << "it is the one that may";
+  mission("  - {name: b, program: dedicated_svc, robot: scout, settings: b.yaml}\n");
   write("b.yaml", "format: 1\nname: m\ndedicated:\n  timeline: scout.path\n  subsystem: t\n");
   EXPECT_EQ(told(), "");
   write("b.yaml", "format: 1\nname: m\ndedicated: faulty\n");

@@ -135,6 +135,61 @@ TEST_F(OrderTest, OneActivityIsHeldAlone) {
   EXPECT_EQ(reactor.outcome(), "achieved");
 }
 
+// R128, E1: a single command runs as a plan of the ground's own.
+TEST_F(OrderTest, TheGroundCommandsAComponentItself) {
+  const auto image = [](const std::string& name) {
+    Order out = order(OrderKind::command, "camera");
+    out.content = state("image", {"image=" + name});
+    return out;
+  };
+  at(1, level(AutonomyLevel::e1));
+  at(20, image("one"));
+  at(30, image("two"));
+  run(100, robot_and({}));
+  EXPECT_EQ(stages(2), kApplied);
+  EXPECT_EQ(reactor.plan_version(), 1U);
+  EXPECT_EQ(stages(3), kRefused);
+  EXPECT_THAT(reason(3), HasSubstr("camera carries out p1.1-image; wait for its end"));
+  EXPECT_THAT(images_begun(), ElementsAre("one"));
+  EXPECT_EQ(reactor.phase(), MissionPhase::idle);
+  ASSERT_TRUE(reactor.last_executed());
+  EXPECT_EQ(reactor.last_executed()->outcome, reactor::ExecutedOutcome::finished);
+  camera_works = false;
+  at(110, image("three"));
+  run(200, {});
+  EXPECT_EQ(stages(4), kApplied);
+  EXPECT_EQ(reactor.phase(), MissionPhase::idle) << "it fails alone: the ground sees it and decides";
+  EXPECT_EQ(reactor.last_executed()->activities.at(0).state, temporal::ActivityState::failed);
+}
+
+TEST_F(OrderTest, TheGroundCommandsNothingBesideAPlanOrUnderAHold) {
+  Order image = order(OrderKind::command, "camera");
+  image.content = state("image", {"image=one"});
+  at(20, image);
+  run(30, robot_and({photo("1"), photo("2")}));
+  EXPECT_THAT(reason(1), HasSubstr("plan 1 runs"));
+  at(40, order(OrderKind::safe));
+  at(60, image);
+  run(70, {});
+  EXPECT_THAT(reason(3), HasSubstr("everything is held"));
+  at(80, level(AutonomyLevel::e1));
+  at(90, order(OrderKind::release));
+  Order garbled = image;
+  garbled.content = state("image", {"one"});
+  at(100, garbled);
+  garbled.content = true;
+  at(101, garbled);
+  garbled.target = "mast";
+  at(102, garbled);
+  at(110, image);
+  run(200, {});
+  EXPECT_THAT(reason(6), HasSubstr("'one' is no NAME=VALUE"));
+  EXPECT_THAT(reason(7), HasSubstr("names no command"));
+  EXPECT_THAT(reason(8), HasSubstr("no component 'mast'; the executive commands: "));
+  EXPECT_EQ(stages(9), kApplied);
+  EXPECT_THAT(images_begun(), ElementsAre("image-1", "one"));
+}
+
 TEST_F(OrderTest, AtE1EachActivityWaitsForItsApproval) {
   at(0.5, order(OrderKind::approve, "p1.1-take-image"));
   at(1, level(AutonomyLevel::e1));

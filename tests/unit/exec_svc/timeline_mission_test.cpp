@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/temporal/activity_timeline.hpp"
 #include "exec_svc/problem/problem_writer.hpp"
 #include "exec_svc/reactor/reactor.hpp"
 
@@ -106,6 +107,23 @@ TEST(TimelineMission, ProblemsHoldStatePredictionsGoalsAndObjects) {
   EXPECT_EQ(problem.objects[1].name, "hole-1");
 }
 
+// The engine could not say in which state the drill is, had it not heard of the hole that the state names.
+TEST(TimelineMission, AnObjectOutlivesItsGoalWhileAStateNamesIt) {
+  TimelineMissionFile file;
+  const MissionModel mission = file.read();
+  beliefs::Beliefs beliefs(mission);
+  goals::GoalSet goals(mission);
+  for (const char* id : {"a", "b", "c"}) goals.submit(hole(id), seconds(0));
+  goals.set_state({"ground", "a"}, goals::GoalState::achieved, "");
+  goals.set_state({"ground", "b"}, goals::GoalState::achieved, "");
+  beliefs.observe("mole.drill", state("in", {"h-b"}));
+  const Problem problem =
+      write_problem(mission, beliefs, goals, "mine-1", seconds(60), seconds(60), problem::Reserves::kept, {});
+  std::vector<std::string> names;
+  for (const auto& object : problem.objects) names.push_back(object.name);
+  EXPECT_THAT(names, ElementsAre("h-b", "h-c", "hole-1"));
+}
+
 class TimelineReactor : public ::testing::Test {
  protected:
   ReactorInputs standing() {
@@ -175,6 +193,29 @@ TEST_F(TimelineReactor, FliesAPlanThatCommandsItself) {
   EXPECT_EQ(reactor.goals().find({"ground", "a"})->state, goals::GoalState::achieved);
 }
 
+TEST_F(TimelineReactor, ACommandGetsWhatItsObjectHas) {
+  ReactorInputs in = standing();
+  in.goals = {hole("a")};
+  const std::uint64_t call = reactor.step(seconds(0), in).call->id;
+  temporal::FlexiblePlan plan = bore();
+  plan.activities[0].arguments = {
+      {"hole", "h-a"}, {"depth", "hole-1.depth"}, {"gear", "2.5"}, {"of", "nobody.depth"}};
+  answer(call, plan);
+  const ReactorOutputs out = reactor.step(seconds(5), {});
+  ASSERT_EQ(out.commands.size(), 1U);
+  EXPECT_THAT(out.commands[0].arguments,
+              ElementsAre(temporal::Property{"hole", "h-a"}, temporal::Property{"depth", "0"},
+                          temporal::Property{"gear", "2.5"}, temporal::Property{"of", "nobody.depth"}));
+}
+
+TEST_F(TimelineReactor, APropertyThatAnObjectHasNotIsNamed) {
+  const std::uint64_t call = asked();
+  temporal::FlexiblePlan plan = bore();
+  plan.activities[0].arguments = {{"x", "h-a.x"}};
+  EXPECT_THAT(texts(answer(call, plan).events),
+              HasSubstr("p1.1-bore needs h-a.x for its command, and the object has no such property"));
+}
+
 // R135: a state of the abstract layer that the plan has brought about is told, and outlives the process.
 TEST_F(TimelineReactor, WhatThePlanBringsAboutUnobservedIsToldAndKept) {
   const std::uint64_t call = asked();
@@ -211,6 +252,48 @@ TEST_F(TimelineReactor, WhatThePlanBringsAboutUnobservedIsToldAndKept) {
   observed.observations = {{"errand", state("bored")}};
   restored.step(seconds(70), observed);
   EXPECT_THAT(restored.concluded(), IsEmpty()) << "who observes it knows better";
+}
+
+// Plans that are not PDDL reach the executive as the engine made them.
+TEST_F(TimelineReactor, ConditionsLevelsAndChoicesStayAsTheEngineMadeThem) {
+  const std::uint64_t call = asked();
+  temporal::FlexiblePlan plan = bore();
+  plan.activities[0].level = "primitive";
+  plan.activities[0].parent = "errand";
+  plan.activities[0].post = temporal::compare("mole.drill", temporal::ConditionOp::eq, state("in", {"h-a"}));
+  plan.activities[0].maintenance =
+      temporal::negate(temporal::compare("mole.lamp", temporal::ConditionOp::eq, state("on")));
+  temporal::PlanActivity errand;
+  errand.id = "errand";
+  errand.level = "abstract";
+  errand.start_point = plan.point_count++;
+  errand.end_point = plan.point_count++;
+  temporal::PlanActivity other = plan.activities[0];
+  other.id = "instead";
+  other.start_point = plan.point_count++;
+  other.end_point = plan.point_count++;
+  const temporal::Condition failed =
+      temporal::compare(temporal::activity_timeline("first"), temporal::ConditionOp::eq, state("failed"));
+  other.pre = temporal::any_of({failed, plan.activities[0].maintenance});
+  other.skip_if = temporal::negate(failed);
+  plan.activities.push_back(errand);
+  plan.activities.push_back(other);
+  plan.decisions = {{"way", "", {{"one", {"first"}, {}}, {"two", {"instead"}, failed}}, 1}};
+  plan.decisions[0].resolver_kind = temporal::ResolverKind::rule;
+  answer(call, plan);
+  const temporal::FlexiblePlan& taken = reactor.plan();
+  ASSERT_EQ(taken.activities.size(), 3U);
+  EXPECT_EQ(taken.activities[0].level, "primitive");
+  EXPECT_EQ(taken.activities[0].parent, taken.activities[1].id);
+  EXPECT_EQ(taken.activities[0].post, plan.activities[0].post);
+  EXPECT_EQ(taken.activities[0].maintenance, plan.activities[0].maintenance);
+  temporal::Condition renamed = temporal::compare(temporal::activity_timeline(taken.activities[0].id),
+                                                  temporal::ConditionOp::eq, state("failed"));
+  EXPECT_EQ(taken.activities[2].pre, temporal::any_of({renamed, plan.activities[0].maintenance}));
+  EXPECT_EQ(taken.activities[2].skip_if, temporal::negate(renamed));
+  ASSERT_EQ(taken.decisions.size(), 1U);
+  EXPECT_THAT(taken.decisions[0].choices[1].activities, ElementsAre(taken.activities[2].id));
+  EXPECT_EQ(taken.decisions[0].choices[1].rule, renamed);
 }
 
 TEST_F(TimelineReactor, APlanForStrangersIsRefusedInWords) {

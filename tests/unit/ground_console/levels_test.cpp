@@ -104,6 +104,13 @@ TEST(PlanRows, WhatIsOverIsFoldedFirstThenWhatIsFarAhead) {
                           ">>cycle-3.1", ">>cycle-3.2"));
 }
 
+TEST(PlanRows, OfWhatIsAheadTheLatestIsFoldedFirst) {
+  const std::vector<std::string> rows = shown(traverse(4, 0), 14);
+  ASSERT_EQ(rows.size(), 14U);
+  EXPECT_EQ(rows.back(), ">cycle-3 +3");
+  EXPECT_EQ(rows[5], ">cycle-1");
+}
+
 TEST(PlanRows, WhatRunsStaysTheLongest) {
   const lib::MissionView view = traverse(4, 2);
   EXPECT_THAT(shown(view, 8), ElementsAre("traverse", ">cycle-0 +3", ">cycle-1 +3", ">cycle-2", ">>cycle-2.0",
@@ -121,9 +128,11 @@ TEST(PlanRows, WhatWasSkippedIsOverAndMovesNoAxis) {
   skipped.earliest_start_us(INT64_MIN);
   skipped.latest_start_us(INT64_MAX);
   view.take(skipped);
+  view.take(step("cycle-0.1", v1::ACTIVITY_SKIPPED, 9, 9000, -1, -1));
   EXPECT_EQ(shown(view, 8).at(1), ">cycle-0 +3");
   EXPECT_THAT(cli::watch::watch_screen(view, 120, 60).plain(), HasSubstr("00:00:00    "));
   EXPECT_THAT(cli::watch::watch_screen(view, 120, 60).plain(), Not(HasSubstr(":-")));
+  EXPECT_THAT(cli::watch::watch_screen(view, 120, 60).plain(), Not(HasSubstr("02:30:00")));
 }
 
 TEST(PlanRows, KeepWithinTheirRoomAndCountTheRest) {

@@ -49,6 +49,21 @@ TEST(Orders, ALevelIsOneOfFour) {
   EXPECT_THAT(complaint(autonomy), HasSubstr("unknown level 'E5'; one of: E1 (each activity is approved)"));
 }
 
+TEST(Orders, ACommandIsAnApprovalWithItsContent) {
+  OrderArguments command;
+  command.kind = v1::ORDER_APPROVE;
+  command.target = "scout";
+  command.command = "Scout";
+  command.command_arguments = {"from=w0", "to="};
+  const v1::Order order = order_of(command);
+  EXPECT_EQ(order.target(), "scout");
+  EXPECT_EQ(order.content().kind(), v1::VALUE_STATE);
+  EXPECT_EQ(order.content().state(), "Scout");
+  EXPECT_THAT(order.content().arguments(), ElementsAre("from=w0", "to="));
+  command.command_arguments = {"w0"};
+  EXPECT_THAT(complaint(command), HasSubstr("argument 'w0' is no NAME=VALUE"));
+}
+
 TEST(Orders, AnUploadIsTheFilesContentWithItsChecksum) {
   const auto file = std::filesystem::temp_directory_path() / ("roci_upload_" + std::to_string(::getpid()));
   std::ofstream(file) << "123456789";

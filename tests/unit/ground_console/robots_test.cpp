@@ -253,14 +253,14 @@ TEST(Robots, AFamilyOfTimelinesIsOneWithItsNewest) {
     out.sampled_us(static_cast<std::int64_t>(s * 1e6));
     view.take(out);
   };
-  way("w0.w1", 10);
+  way("w0.w1", 30);
   way("w1.w2", 20);
   const auto states = [&] { return cli::states_by_family(view, cli::robots_of(view).at(0)); };
   EXPECT_THAT(states(), SizeIs(3)) << "two are no family";
   way("v1.v2", 15);
   EXPECT_THAT(states(),
               ::testing::ElementsAre(std::pair<std::string, std::string>{"locomotion", "at w0"},
-                                     std::pair<std::string, std::string>{"way.*", "3, newest w1.w2 open"}));
+                                     std::pair<std::string, std::string>{"way.*", "3, newest w0.w1 open"}));
 }
 
 TEST(Robots, OfAMissionWithOneAreThatOne) {

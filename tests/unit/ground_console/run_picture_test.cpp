@@ -36,6 +36,7 @@ const char* kTwoRovers =
     "15000000 observation scout.locomotion scouting(w0, w1) sampled 15000000\n"
     "15000000 observation scout.x 8 sampled 15000000\n"
     "15000000 observation scout.y 15 sampled 15000000\n"
+    "15000000 ack p1.1-scout(w0, w1) 1 stage=0 scout.locomotion  \n"
     "20000000 ack p1.1-scout(w0, w1) 1 stage=0 scout.locomotion repairing drive: no-go\n"
     "30000000 observation scout.locomotion scouting(w0, w1) sampled 30000000\n"
     "60000000 ack p1.1-scout(w0, w1) 1 stage=2 scout.locomotion done \n"
@@ -73,15 +74,17 @@ TEST(Course, HasStatesPlansAndRepairsOfATrace) {
 
 TEST(Course, HasRowsOfTheTeamFirstThenByRobotAndWhatIsToCome) {
   Course out = course();
-  add_planned("primary.locomotion", {"following(w0, w1)", 80'000'000, 90'000'000}, out);
-  add_planned("scout.locomotion", {"at(w2)", 80'000'000, 80'000'000}, out);
+  add_planned("primary.locomotion", {{80'000'000, "following(w0, w1)"}}, 90'000'000, out);
+  add_planned("scout.locomotion", {{80'000'000, "scouting(w1, w2)"}, {85'000'000, "at(w2)"}}, 90'000'000,
+              out);
+  add_planned("scout.nav", {}, 90'000'000, out);
   sort_by_robot({"primary", "scout"}, out);
   EXPECT_THAT(
       rows_of(out),
       ElementsAre("navigation: team_cycle(w0, w1) 0-70", "ground.window: true 60-70",
                   "primary.locomotion: following(w0, w1) 80-90 planned",
-                  "scout.locomotion: at(w0) 0-15 scouting(w0, w1) 15-60 at(w1) 60-70 at(w2) 80-80 planned "
-                  "repair 20"));
+                  "scout.locomotion: at(w0) 0-15 scouting(w0, w1) 15-60 at(w1) 60-70 at(w1) 70-80 planned "
+                  "scouting(w1, w2) 80-85 planned at(w2) 85-90 planned repair 20"));
 }
 
 TEST(Course, JoinsWhatAFamilyOfTimelinesSaysOnce) {

@@ -15,6 +15,8 @@ namespace {
 
 using ::testing::Contains;
 using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::Not;
 
 PlanBuilder one(const std::function<void(PlanActivity&)>& with, const std::string& owner = "sim") {
   PlanBuilder b;
@@ -222,6 +224,21 @@ TEST(Commands, AnswersThatMatchNothingAreCountedAndIgnored) {
   world.at(500, {.acks = {{"drive", 2, CommandStage::failed, "", "after the end"}}});
   EXPECT_THAT(world.run(), Contains("110 plan finished"));
   EXPECT_EQ(world.executive.ignored_acks(), 4U);
+}
+
+TEST(Owners, OneThatCameBackInTimeIsAskedForItsRunningStepsOnly) {
+  PlanBuilder b;
+  b.activity("drive", "sim", 100);
+  b.activity("move", "arm", 100);
+  b.activity("later", "arm", 100);
+  b.after("move", "later");
+  ScriptedWorld world(b.plan);
+  world.at(50, {.found_owners = {"arm"}});
+  const auto lines = world.run();
+  EXPECT_THAT(lines, Contains("50 query move#1"));
+  EXPECT_THAT(lines, Not(Contains(HasSubstr("query drive"))));
+  EXPECT_THAT(lines, Not(Contains(HasSubstr("query later"))));
+  EXPECT_THAT(lines, Contains(HasSubstr("plan finished")));
 }
 
 TEST(Owners, ALostOwnerFailsItsRunningStepsOnly) {

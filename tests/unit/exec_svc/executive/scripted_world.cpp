@@ -106,8 +106,11 @@ void ScriptedWorld::note(const Outputs& outputs) {
                       (change.reason.empty() ? "" : " (" + change.reason + ")"));
   for (const Command& command : outputs.commands) {
     const bool execute = command.action == CommandAction::execute;
-    trace.push_back(at + (execute ? "execute " : "cancel ") + command.activity + "#" +
-                    std::to_string(command.attempt));
+    trace.push_back(at +
+                    (execute                                  ? "execute "
+                     : command.action == CommandAction::query ? "query "
+                                                              : "cancel ") +
+                    command.activity + "#" + std::to_string(command.attempt));
     if (!command.arguments.empty()) arguments[command.activity] = command.arguments.front().value;
     answer(command);
   }

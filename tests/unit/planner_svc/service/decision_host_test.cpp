@@ -119,7 +119,7 @@ TEST_F(DecisionHostTest, AnswersWhenTheInformationIsThere) {
                 write_at(exec, 5s, topics::observation, seen("way", "right"));
                 write_at(exec, 6s, topics::observation, seen("way", "left"));
               }),
-              ElementsAre("5 planner_svc/d@1 d right"));
+              ElementsAre("5 guided/exec/d@1 d right"));
 }
 
 TEST_F(DecisionHostTest, BindsAValueAndHearsThePlanAfterTheQuestion) {
@@ -128,7 +128,7 @@ TEST_F(DecisionHostTest, BindsAValueAndHearsThePlanAfterTheQuestion) {
                 write_at(exec, 2s, topics::decision, question("b"));
                 write_at(exec, 4s, topics::plan, plan());
               }),
-              ElementsAre("4 planner_svc/b@1 b w7"));
+              ElementsAre("4 guided/exec/b@1 b w7"));
 }
 
 TEST_F(DecisionHostTest, AQuestionThatIsAskedAgainGetsTheSameKey) {
@@ -138,7 +138,7 @@ TEST_F(DecisionHostTest, AQuestionThatIsAskedAgainGetsTheSameKey) {
                 write_at(exec, 2s, topics::decision, question("d"));
                 write_at(exec, 9s, topics::decision, question("d"));
               }),
-              ElementsAre("2 planner_svc/d@1 d left", "9 planner_svc/d@1 d left"));
+              ElementsAre("2 guided/exec/d@1 d left", "9 guided/exec/d@1 d left"));
 }
 
 TEST_F(DecisionHostTest, LeavesWhatIsOfOthersOrClosedAlone) {
@@ -159,7 +159,7 @@ TEST_F(DecisionHostTest, AFailureIsToldAndTheNextObservationDecides) {
                 write_at(exec, 3s, topics::decision, question("d"));
                 write_at(exec, 4s, topics::observation, seen("way", "left"));
               }),
-              ElementsAre("decision d: out of ideas", "4 planner_svc/d@1 d left"));
+              ElementsAre("decision d: out of ideas", "4 guided/exec/d@1 d left"));
 }
 
 }  // namespace

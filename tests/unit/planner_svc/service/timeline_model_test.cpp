@@ -107,6 +107,38 @@ TEST_F(TimelineModelTest, AFaultIsToldWithTheFileThatHasIt) {
   EXPECT_THROW(read_settings(folder_), std::exception);
 }
 
+// R132: the mission says which resolvers search, and on how many threads; the plan is the same for any number of these.
+TEST_F(TimelineModelTest, TheMissionNamesResolversAndThreads) {
+  const auto with_planner = [&](const std::string& words) {
+    std::ofstream(folder_ / "mission.yaml")
+        << "model: problem.yaml\nplanner: {engine: timeline_htn" + words + "}\n";
+    return reply_to(request(read_settings(folder_, engines()).model));
+  };
+  const v1::PlanReply alone = with_planner("");
+  const v1::PlanReply one = with_planner(", resolvers: [blind, landmarks], threads: 1");
+  const v1::PlanReply two = with_planner(", resolvers: [blind, landmarks], threads: 2");
+  ASSERT_EQ(two.verdict_code(), v1::VERDICT_SOLVED) << two.reason();
+  EXPECT_EQ(one.solution().activities(), two.solution().activities());
+  EXPECT_EQ(one.statistics().evaluated(), two.statistics().evaluated());
+  EXPECT_GT(one.statistics().evaluated(), alone.statistics().evaluated()) << "both have searched";
+  const auto fault = [&](const std::string& planner) -> std::string {
+    std::ofstream(folder_ / "mission.yaml") << "planner: {" + planner + "}\n";
+    try {
+      read_settings(folder_, engines());
+    } catch (const std::exception& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_THAT(fault("engine: timeline_htn, resolvers: [blind, clever]"),
+              HasSubstr("mission.yaml:1:52: engine 'timeline_htn' has no resolver 'clever'; write some of "
+                        "blind, blind_last"));
+  EXPECT_THAT(fault("engine: temporal_pddl, resolvers: [blind]"),
+              HasSubstr("has no resolvers to choose from"));
+  EXPECT_THAT(fault("engine: timeline_htn, resolvers: []"), HasSubstr("there is no resolver in it"));
+  EXPECT_THAT(fault("engine: timeline_htn, threads: 0"), HasSubstr("a search runs on 1 to 64 threads"));
+}
+
 const std::string kGate = R"yaml(domain: gate
 types: [side]
 objects: {side: [left, right]}

@@ -104,7 +104,9 @@ TEST_F(ScenarioFile, AStimulusIsAnyOrderOfTheGround) {
                           "  - {at_s: 4, order: {id: d, kind: autonomy, level: E2}}\n"
                           "  - {at_s: 5, order: {id: e, kind: answer, decision: way, choice: left}}\n"
                           "  - {at_s: 6, order: {id: f, kind: answer, decision: way, value: wp3}}\n"
-                          "  - {at_s: 7, order: {id: g, kind: hold}}\n")
+                          "  - {at_s: 7, order: {id: g, kind: hold}}\n"
+                          "  - {at_s: 8, order: {id: h, kind: command, component: wheels, command: go, "
+                          "arguments: {to: w1, slow: true}}}\n")
                          .scenario;
   const auto order = [&](std::size_t i) { return std::get<OrderStimulus>(s.stimuli.at(i).what); };
   EXPECT_EQ(order(0).kind, OrderKind::safe);
@@ -117,6 +119,8 @@ TEST_F(ScenarioFile, AStimulusIsAnyOrderOfTheGround) {
   EXPECT_EQ(order(4).choice, "left");
   EXPECT_EQ(order(5).value, temporal::Value(temporal::state("wp3")));
   EXPECT_EQ(order(6).target, "") << "everything";
+  EXPECT_EQ(order(7).target, "wheels");
+  EXPECT_EQ(order(7).value, temporal::Value(temporal::state("go", {"to=w1", "slow=true"})));
   const auto fault = [&](const std::string& text) {
     return error_of(head_ + "stimuli:\n  - {at_s: 1, order: {id: a, " + text + "}}\n");
   };
@@ -124,6 +128,7 @@ TEST_F(ScenarioFile, AStimulusIsAnyOrderOfTheGround) {
   EXPECT_THAT(fault("kind: drop"), HasSubstr("'activity' is missing"));
   EXPECT_THAT(fault("kind: safe, activity: b"), HasSubstr("'activity'"));
   EXPECT_THAT(fault("kind: autonomy, level: E7"), HasSubstr("one of: E1, E2, E3, E4"));
+  EXPECT_THAT(fault("kind: command, component: wheels"), HasSubstr("'command' is missing"));
   EXPECT_THAT(fault("kind: answer, decision: way, choice: a, value: b"), HasSubstr("keep one"));
 }
 

@@ -114,6 +114,32 @@ TEST(FasterModel, AMarkerThatIsNotSeenAndAHazardAreMendedFirst) {
   EXPECT_THAT(names(checked_plan("hazard_detected")), Contains("avoid_hazard"));
 }
 
+// Where legs are closed, no route is begun that comes to one of them: behind the south way's last stand the team goes all the way back and along
+// the edge.
+TEST(FasterModel, ClosedLegsAreGoneRoundWithoutASearch) {
+  const auto plan = [](const std::vector<std::pair<std::string, std::string>>& legs) {
+    model::Model model = load("missions/faster/problem.yaml");
+    const auto object = [&](const std::string& name) {
+      return static_cast<Index>(std::ranges::find(model.objects, name, &model::Object::name) -
+                                model.objects.begin());
+    };
+    for (const std::string component : {"primary_locomotion", "scout_locomotion"}) {
+      const auto found = std::ranges::find(model.components, component, &model::Component::name);
+      model.problem->initial[static_cast<std::size_t>(found - model.components.begin())]->terms[0].index =
+          object("v6");
+    }
+    auto& closed = std::ranges::find(model.relations, "closed", &model::Relation::name)->rows;
+    for (const auto& [from, to] : legs) closed.push_back({object(from), object(to)});
+    std::ranges::sort(closed);
+    auto search = std::make_unique<search::Search>(model, search::Resolver{});
+    const search::Outcome outcome = search->run(100'000, 0, [] { return false; });
+    EXPECT_LT(search->count().evaluated, 3000U);
+    return outcome;
+  };
+  EXPECT_EQ(plan({}), search::Outcome::solved);
+  EXPECT_EQ(plan({{"v6", "w5"}, {"w2", "w3"}, {"u3", "u4"}}), search::Outcome::solved);
+}
+
 // R138: each of them missing, the traverse as a team does not apply.
 TEST(FasterModel, ATraverseAsATeamNeedsFormationAndTheUplink) {
   const auto planned = [](const std::string& component, const std::string& state) {
@@ -133,13 +159,47 @@ TEST(FasterModel, ATraverseAsATeamNeedsFormationAndTheUplink) {
   EXPECT_NE(planned("scout_locomotion", "at"), search::Outcome::solved);
 }
 
+// R128, E5: a target comes with the request for it; where it lies is for the executive to say.
+TEST(FasterModel, AFindIsInspectedBeforeTheTeamGoesOn) {
+  model::Model model = load("missions/faster/problem.yaml");
+  const auto index = [](const auto& list, const auto& name, auto member) {
+    return static_cast<Index>(std::ranges::find(list, name, member) - list.begin());
+  };
+  const Index science = index(model.components, "science", &model::Component::name);
+  const Index inspected = index(model.components[science].states, "inspected", &model::State::name);
+  model.objects.push_back({"odd", index(model.types, "target", std::identity{})});
+  model.problem->goals.push_back(
+      {"find",
+       {science, inspected, {{static_cast<Index>(model.objects.size() - 1), true}}},
+       {},
+       temporal::no_bound,
+       {}});
+  const FlexiblePlan plan = plan_for(model);
+  EXPECT_THAT(faults(model, plan), IsEmpty());
+  const auto first = [&](const std::string& beginning) {
+    return *std::ranges::find_if(plan.activities,
+                                 [&](const auto& activity) { return activity.name.starts_with(beginning); });
+  };
+  const PlanActivity imaging = first("primary_path.imaging(odd)");
+  EXPECT_THAT(imaging.arguments,
+              testing::ElementsAre(temporal::Property{"target", "odd"}, temporal::Property{"x", "odd.x"},
+                                   temporal::Property{"y", "odd.y"}));
+  const temporal::NetworkDistances network(plan.point_count, all_constraints(plan));
+  EXPECT_TRUE(network.consistent());
+  for (const char* after : {"primary_path.localising", "primary_locomotion.turning"})
+    EXPECT_TRUE(network.implies(imaging.end_point, first(after).start_point, temporal::Duration{0},
+                                temporal::no_bound))
+        << after;
+  EXPECT_EQ(count(plan, "navigation.team_cycle("), 9U);
+}
+
 // R140: way-points form a graph, neighbours at most 4 m apart.
 TEST(FasterModel, WayPointsLieAtMostFourMetresApart) {
   const model::Model model = load("missions/faster/problem.yaml");
   const model::NumberTable& metres = model.numbers[0];
   for (const auto& [row, length] : metres.rows)
     EXPECT_LE(length, 4.0) << model.objects[row[0]].name << " to " << model.objects[row[1]].name;
-  EXPECT_EQ(metres.rows.size(), 58U) << "29 ways, in both directions";
+  EXPECT_EQ(metres.rows.size(), 82U) << "41 ways, in both directions";
 }
 
 }  // namespace

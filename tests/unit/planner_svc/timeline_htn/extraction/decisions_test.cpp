@@ -9,7 +9,7 @@
 namespace roci::planner::timeline_htn::extraction {
 namespace {
 
-using temporal::seconds;
+using temporal::FlexiblePlan, temporal::PlanActivity, temporal::seconds;
 using testing::Contains, testing::ElementsAre, testing::IsEmpty, testing::Not, testing::UnorderedElementsAre;
 
 const std::string kTeam = R"yaml(domain: team
@@ -83,6 +83,41 @@ TEST(OpenDecisions, AChoiceStandsInThePlanWithAllItsActivities) {
   EXPECT_THAT(decision->choices[1].activities, ElementsAre(back->id));
   EXPECT_EQ(temporal::describe(decision->choices[0].rule), "scout.nav = arrived");
   EXPECT_EQ(follow->contingency, "stop");
+}
+
+const PlanActivity* find(const FlexiblePlan& plan, const std::string& name) {
+  const auto found = std::ranges::find(plan.activities, name, &PlanActivity::name);
+  return found == plan.activities.end() ? nullptr : &*found;
+}
+
+// Where the scout is brought back the cycle is not done: what says so is skipped with what was planned behind.
+TEST(OpenDecisions, WhatADecisionMayLeaveUndoneIsNotTakenForDone) {
+  const std::string done =
+      with(with(kTeam, "idle: {kind: default}, cycle: {kind: complex}",
+                "idle: {kind: default, observed: {timeline: team}}, cycle: {kind: complex, "
+                "observed: {timeline: team}}, done: {kind: default, observed: {timeline: team}}"),
+           "[idle <-> cycle]", "[idle -> cycle, cycle -> done, done -> cycle]");
+  const auto ends_with = [](const PlanActivity& activity) {
+    for (const auto& impact : activity.impacts)
+      if (impact.moment == temporal::ImpactWhen::at_end) return temporal::to_text(impact.amount);
+    return std::string();
+  };
+  const FlexiblePlan left = *planned(model_of({done})).plan;
+  ASSERT_TRUE(find(left, "team.done") && find(left, "team.cycle"));
+  EXPECT_EQ(ends_with(*find(left, "team.cycle")), "idle") << "as before it";
+  EXPECT_EQ(ends_with(*find(left, "team.done")), "done");
+  const auto& go_on = left.decisions[1];
+  EXPECT_THAT(go_on.choices[0].activities, Contains(find(left, "team.done")->id));
+  EXPECT_THAT(go_on.choices[1].activities, ElementsAre(find(left, "scout.come_back")->id));
+  // A choice that brings about the same leaves nothing undone, and the plan goes on behind it.
+  const FlexiblePlan same =
+      *planned(model_of({with(done, "{subgoals: back}", "{subgoals: back, instead: true}")})).plan;
+  EXPECT_EQ(find(same, "team.done"), nullptr);
+  EXPECT_EQ(ends_with(*find(same, "team.cycle")), "done");
+  const auto& either = same.decisions[1];
+  EXPECT_THAT(either.choices[1].activities, Contains(find(same, "primary.report")->id));
+  EXPECT_THAT(either.choices[1].activities, Contains(find(same, "scout.come_back")->id));
+  EXPECT_THAT(either.choices[1].activities, Not(Contains(find(same, "primary.follow")->id)));
 }
 
 TEST(OpenDecisions, TheTimelinesShowTheFirstChoice) {

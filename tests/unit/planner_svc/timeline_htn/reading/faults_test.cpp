@@ -66,6 +66,7 @@ TEST(TimelineModelFaults, NumbersAndLinesAreToldWithPlaceAndRemedy) {
       {"metres(from, to) / 0.5", "metres(from, to) 5", "'5' stands where the line should end"},
       {"metres(from, to) / 0.5\", ", "none\", none, ", "expected one duration, or [shortest, longest]"},
       {"answer_within_s: 5", "answer_within_s: 0", "expected seconds above 0"},
+      {"goal: to", "goal: to.", "'to.' names no property; write one behind the dot, or drop the dot"},
       {"window_s: [5, 300]", "window_s: [5]", "expected [opens, closes]"},
       {"horizon_s: 600", "horizon_s: none", "a plan ends at some time"},
       {"horizon_s: 600", "horizon_s: 1e300", "expected seconds from the origin on"},
@@ -105,6 +106,13 @@ TEST(TimelineModelFaults, WhatContradictsItselfIsToldAtItsPart) {
       {"duration_s: 10", "duration_s: [10, 5]", "state 'antenna.send': its duration is negative"},
       {"choices: {a: {subgoals: tell", "choices: {a: {subgoals: other", "stands in two choices"},
   });
+}
+
+TEST(TimelineModelFaults, WhatStaysOpenHasNoPropertiesYet) {
+  expect_faults(
+      {{"what: report}, duration_s: 10}",
+        "what: report}, duration_s: 10, command: {owner: sim, command: send, arguments: {size: what.size}}}",
+        "'what.size' of the command send is a property of what stays open"}});
 }
 
 TEST(TimelineModelFaults, BehavioursThatNeverEndAreNamed) {

@@ -46,6 +46,17 @@ TEST(TimelineModel, AComponentHasAllThatTheFileSays) {
   EXPECT_EQ(model.components[0].transitions.size(), 2U);  // both ways
 }
 
+TEST(TimelineModel, ACommandMayHaveAPropertyOfAnObject) {
+  const std::string text = with(kSound, "goal: to, gear: slow", "goal: to.x, gear: slow.x");
+  EXPECT_EQ(faults_of(text), "");
+  mission::Findings findings;
+  const Model model = *parse_model({{"m.yaml", text}}, findings);
+  const auto& arguments = model.components[1].states.at(1).command->arguments;
+  const std::vector<Index> there{0, 1};
+  EXPECT_EQ(model::text_of(model, arguments.at(0), there), "wp1.x");
+  EXPECT_EQ(model::text_of(model, arguments.at(1), there), "slow.x") << "no parameter, so it is a text";
+}
+
 TEST(TimelineModel, DurationsAndTestsAreThoseOfTheObjects) {
   const Model model = rover();
   const State& drive = model.components[1].states.at(1);

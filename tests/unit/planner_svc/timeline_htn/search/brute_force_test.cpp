@@ -44,8 +44,8 @@ class RandomProblem {
       out += "      " + std::string(simple) + ": {kind: simple, duration_s: [" + std::to_string(shortest) +
              ", " + std::to_string(shortest + number(0, 4)) + "]";
       if (!other.empty() && chance(50))
-        out +=
-            ", needs: [" + one_of({"during", "at_start", "met_by"}) + " " + other + "." + one_of(states_[other]) + "]";
+        out += ", needs: [" + one_of({"during", "at_start", "met_by"}) + " " + other + "." +
+               one_of(states_[other]) + "]";
       out += "}\n";
     }
     std::string transitions = "\"idle -> a\", \"b -> " + one_of({"idle", "a"}) + "\", \"a -> " +

@@ -16,6 +16,13 @@ const std::vector<Resolver> kAll{{Heuristic::blind, Order::first_declared},
                                  {Heuristic::relaxed_plan, Order::first_declared},
                                  {Heuristic::landmarks, Order::first_declared}};
 
+TEST(Resolvers, AreKnownByTheirNames) {
+  EXPECT_EQ(search::resolver_named("landmarks"), (Resolver{Heuristic::landmarks, Order::first_declared}));
+  EXPECT_EQ(search::resolver_named("blind_last"), (Resolver{Heuristic::blind, Order::last_declared}));
+  EXPECT_FALSE(search::resolver_named("last"));
+  for (const std::string& name : search::resolver_names()) EXPECT_TRUE(search::resolver_named(name)) << name;
+}
+
 TEST(Resolvers, GiveTheSamePlanOnAnyNumberOfThreads) {
   const model::Model model =
       model_of({bench::timeline_htn::text_of({.waypoints = 9, .goals = 3, .chords = 1})});

@@ -1,0 +1,181 @@
+"""What came of a flight of missions/faster over hidden traps: read from its run folder."""
+
+from __future__ import annotations
+
+import json
+import math
+import re
+import shutil
+import sqlite3
+from collections import Counter
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from flights import Programs, rehearse
+
+STEP_M = 0.05  # between two observed places the primary is taken to drive straight
+FINAL = (0, 3, 4, 5, 6)  # of exec_svc/goals: rejected, achieved, dropped, failed, recalled
+ACHIEVED = 3
+
+
+@dataclass
+class Repair:
+    cause: str
+    at_s: float
+    used_s: float | None  # from the No-Go to the next drive on new paths; nothing: there was none
+    allowed_s: float  # that the decision had left
+
+
+@dataclass
+class Flight:
+    seed: int
+    folder: str
+    way_m: float | None = None  # length of a way for the primary on the true map; nothing: there is none
+    result: str = "crashed"
+    sim_s: float = 0
+    wall_s: float = 0
+    arrived: bool = False
+    reason: str = ""  # why it did not
+    bogged: bool = False
+    marks: int = 0  # No-Go circles
+    repairs: list[Repair] = field(default_factory=list)
+    replans: list[str] = field(default_factory=list)  # by cause
+    entries: int = 0  # of the primary into circles that its map had
+    faults: list[str] = field(default_factory=list)
+
+
+def cause_of(text: str) -> str:
+    """"plan 2 is broken: p2.9-scout_path.planning(w3, w4): failed [path-invalid]: …" is scout_path.planning: path-invalid."""
+    found = re.search(r"is broken: p[\d.]+-([\w.]+)(?:\([^)]*\))?: \w+ \[([\w-]+)\]", text)
+    return f"{found[1]}: {found[2]}" if found else text.split(" is broken: ")[-1][:80]
+
+
+def lines(file: Path) -> list[dict]:
+    return [json.loads(line) for line in file.read_text().splitlines()] if file.exists() else []
+
+
+def fly(programs: Programs, mission: Path, seed: int, folder: Path, way_m: float | None, flown: bool) -> Flight:
+    summary, error = rehearse(programs, mission, "hidden", seed, folder, flown)
+    flight = Flight(seed, str(folder), way_m)
+    if not summary:
+        flight.faults.append(f"no summary: {error}")
+        return flight
+    flight.result, flight.sim_s, flight.wall_s = summary["result"], summary["sim_s"], summary["wall_s"]
+    read(flight, Path(folder))
+    return flight
+
+
+def read(flight: Flight, folder: Path, journal: str = "journal.sqlite") -> None:
+    with sqlite3.connect(f"file:{folder / journal}?mode=ro", uri=True) as database:
+        rows = list(database.execute("SELECT time_us, kind, text FROM record WHERE kind IN ('trace', 'event', 'step') ORDER BY seq"))
+        goals = {name: (state, reason) for name, state, reason in database.execute("SELECT id, state, reason FROM goal")}
+    events = [(us / 1e6, text) for us, kind, text in rows if kind == "event"]
+    trace = [(us / 1e6, text.split(" ", 1)[1]) for us, kind, text in rows if kind == "trace"]
+    state, flight.reason = goals.get("long_traverse", (-1, "the goal is lost"))
+    flight.arrived = state == ACHIEVED
+    flight.bogged = any("primary" in text and "bogged-down" in text for _, text in trace if text.startswith("ack"))
+    flight.replans = [cause_of(text) for _, text in events if text.startswith("plan.broken")]
+    flight.repairs = repairs_of(rows, lines(folder / "effects.jsonl"))
+    circles = circles_of(folder)
+    flight.marks = len(circles)
+    flight.entries = entries_into(circles, trace)
+    for name in ("long_traverse", "last_communication"):
+        if goals.get(name, (-1, ""))[0] not in FINAL:
+            flight.faults.append(f"goal {name} has no end")
+    if flight.result not in ("achieved", "partial"):
+        flight.faults.append(f"no defined end: result '{flight.result}' at {flight.sim_s:.0f} s")
+    if flight.entries:
+        flight.faults.append(f"the primary was {flight.entries} times in soil that its map had as No-Go")
+    doubled = Counter((one["commander"], one["epoch"], one["activity"], one["attempt"]) for one in lines(folder / "effects.jsonl"))
+    flight.faults += [f"command {' '.join(map(str, key))} has its effect {count} times" for key, count in doubled.items() if count > 1]
+
+
+def repairs_of(rows: list[tuple[int, str, str]], effects: list[dict]) -> list[Repair]:
+    drives = [one["time_us"] / 1e6 for one in effects if one["robot"] == "scout" and one["kind"] == "motion"]
+    metres = leg_metres()
+    begun, out = {}, []
+    for us, kind, text in rows:
+        words = text.split(" ")
+        if kind != "trace":
+            continue
+        if words[1] == "command" and "action=0" in text:
+            begun[text.split(" action=")[0].split("command ", 1)[1].rsplit(" ", 1)[0]] = us / 1e6
+        found = re.search(r"ack (\S+?-\S+?(?:\([^)]*\))?) \d+ stage=0 (\S+) repairing (\S+?): (\S+?)[,;: ]", text + " ")
+        if not found:
+            continue
+        activity, _, _, error = found.groups()
+        at = us / 1e6
+        leg = re.search(r"traversing_with_ss\((\w+), (\w+)\)", activity)
+        limit = metres.get((leg[1], leg[2]), 0) / 0.0125 + 300 if leg else 0  # as in domain.yaml
+        after = [one for one in drives if one >= at] if leg else []
+        end = begun.get(activity, at) + limit
+        error = error if "-" in error else "path-invalid"  # which is told by its reason alone
+        out.append(Repair(error, at, min(after) - at if after and min(after) <= end else None, end - at if leg else 0))
+    return out
+
+
+def leg_metres() -> dict[tuple[str, str], float]:
+    text = (Path(__file__).resolve().parents[2] / "missions/faster/yard.yaml").read_text()
+    out = {}
+    for a, b, value in re.findall(r"\[(\w+), (\w+), ([\d.]+)\]", text):
+        out[a, b] = out[b, a] = float(value)
+    return out
+
+
+def circles_of(folder: Path) -> list[tuple[float, float, float, float]]:
+    """x, y, radius, and since when the primary's map has it."""
+    file = folder / "primary.path.hazards"
+    if not file.exists() or not (folder / "events.jsonl").exists():  # only rehearsals write down what maps say
+        return []
+    marked = [one for one in json.loads(file.read_text()) if one["kind"] == "soil"]
+    versions = []  # since when the map had how many hazards
+    for one in lines(folder / "events.jsonl"):
+        found = re.search(r"the map has version \d+ with (\d+) hazards", one["text"])
+        if one["sender"] == "primary.path" and found:
+            versions.append((one["time_us"] / 1e6, int(found[1])))
+    marked.sort(key=lambda one: int(re.sub(r"\D", "", one["id"]) or 0))
+    out = []
+    for number, one in enumerate(marked, 1):
+        since = next((at for at, count in versions if count >= number), 0.0)
+        out.append((one["x_m"], one["y_m"], one["radius_m"], since))
+    return out
+
+
+def entries_into(circles: list[tuple[float, float, float, float]], trace: list[tuple[float, str]]) -> int:
+    place, driven = {}, []
+    for at, text in trace:
+        found = re.match(r"observation primary\.([xy]) (\S+)", text)
+        if found:
+            place[found[1]] = float(found[2])
+        if found and len(place) == 2 and found[1] == "y":
+            driven.append((at, place["x"], place["y"]))
+    out = 0
+    for x, y, radius, since in circles:
+        was_in = False
+        for (_, ax, ay), (bt, bx, by) in zip(driven, driven[1:]):
+            if bt <= since:
+                continue
+            steps = max(1, math.ceil(math.hypot(bx - ax, by - ay) / STEP_M))
+            for i in range(1, steps + 1):
+                inside = math.hypot(ax + (bx - ax) * i / steps - x, ay + (by - ay) * i / steps - y) < radius
+                out += inside and not was_in
+                was_in = inside
+    return out
+
+
+def without_repairs(mission: Path, folder: Path) -> Path:
+    """A copy of the mission in which the dedicated executives know no repair."""
+    shutil.rmtree(folder, ignore_errors=True)
+    shutil.copytree(mission, folder)
+    for file in folder.glob("*.yaml"):
+        kept, depth = [], None
+        for line in file.read_text().splitlines():
+            indent = len(line) - len(line.lstrip())
+            if depth is not None and line.strip() and indent <= depth:
+                depth = None
+            if depth is None and re.fullmatch(r" +repairs:", line.rstrip()):
+                depth = indent
+            if depth is None:
+                kept.append(line)
+        file.write_text("\n".join(kept) + "\n")
+    return folder

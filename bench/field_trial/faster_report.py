@@ -1,0 +1,85 @@
+"""The Markdown report of the field trial of missions/faster."""
+
+from __future__ import annotations
+
+from collections import Counter
+from pathlib import Path
+
+from report import table
+
+
+def seeds(flights: list) -> str:
+    return ", ".join(str(one.seed) for one in flights) or "–"
+
+
+def counted(texts: list[str], head: str) -> str:
+    return table([head, "how often"], [[text, str(count)] for text, count in Counter(texts).most_common()]) if texts else "None.\n"
+
+
+def share(part: int, whole: int) -> str:
+    return f"{part} of {whole} ({100 * part / whole:.1f} %)" if whole else "–"
+
+
+def quantiles(values: list[float]) -> str:
+    ordered = sorted(values)
+    return f"{ordered[len(ordered) // 2]:.2f}, at most {ordered[-1]:.2f}" if ordered else "–"
+
+
+def arrivals(records: list) -> str:
+    rows = []
+    for name, flights in (("as it stands", [one.flight for one in records]),
+                          ("repair switched off", [one.unrepaired for one in records if one.unrepaired])):
+        possible = [one for one in flights if one.way_m is not None]
+        rows.append([name, str(len(flights)), share(sum(one.arrived for one in possible), len(possible)),
+                     str(sum(one.bogged for one in flights)), str(sum(one.entries for one in flights)),
+                     f"{sum(not one.replans for one in flights)}", str(sum(len(one.replans) for one in flights))])
+    out = "## Who arrives\n\n" + table(["", "flights", "arrived where a way exists", "primaries dug in", "entries into marked soil",
+                                          "flights without a new plan", "new plans"], rows)
+    late = [one.flight for one in records if not one.flight.arrived]
+    out += f"\nNot arrived: seeds {seeds(late)}.\n\n"
+    return out + "".join(f"- seed {one.seed}: {one.reason[:220]}\n" for one in late)
+
+
+def write(records: list, target: Path) -> None:
+    flights = [one.flight for one in records]
+    repairs = [repair for one in flights for repair in one.repairs]
+    drives = [one for one in repairs if one.cause == "no-go" and one.used_s is not None]
+    first, last = flights[0].seed, flights[-1].seed
+    text = f"""# Field trial: two rovers over hidden traps
+
+{len(flights)} flights of `missions/faster`, scenario `hidden`, seeds {first} to {last}: four sand traps where the seed puts them, which no map shows and no camera
+sees. Whether a way exists for the primary says an exact search on the true map (`tests/scenario/true_way.hpp`): in {sum(one.way_m is not None for one in flights)} of them.
+Written by `bench/field_trial/faster.py` ([how it works](../bench/field_trial/README.md)). One flight again, alone:
+
+    roci-launch missions/faster --scenario hidden --seed {first} --dds inproc --speed max --headless --run-folder FOLDER
+
+{arrivals(records)}
+## Repairs without a new plan
+
+By the error that they are for ({len(repairs)}):
+
+{counted([one.cause for one in repairs], "error")}
+**From the No-Go to both new paths**: {len(drives)} times the scout drove on, on new paths, within its decision. Time used in seconds of mission time, median
+{quantiles([one.used_s for one in drives])}; share of the time that the decision had left, median {quantiles([one.used_s / one.allowed_s for one in drives])}.
+
+## New plans by cause
+
+{counted([cause for one in flights for cause in one.replans], "cause")}
+"""
+    off = [one.unrepaired for one in records if one.unrepaired]
+    if off:
+        text += f"With repair switched off ({len(off)} flights):\n\n{counted([cause for one in off for cause in one.replans], 'cause')}\n"
+    killed = [one.killed for one in records if one.killed]
+    if killed:
+        text += f"""## Services killed
+
+{len(killed)} of the flights again over DDS, every service a process, one to three of them killed by `kill -9` ({sum(one.killed for one in killed)} kills):
+{sum(len(one.goals_lost) for one in killed)} goals lost, {sum(len(one.doubled) for one in killed)} commands doubled,
+{share(sum(one.result in ("achieved", "partial") for one in killed), len(killed))} with a defined end, {share(sum(one.arrived for one in killed), len(killed))} arrived.
+
+{table(["seed", "transport", "killed", "end", "arrived"], [[str(one.seed), one.dds, one.kills, one.result, "yes" if one.arrived else "no"] for one in killed])}
+"""
+    faults = [(one.flight.seed, fault) for one in records for fault in one.faults]
+    text += f"## Rules\n\nEvery goal has an end, the primary is never in soil that its map had as No-Go, nothing is done twice: {len(faults)} broken.\n"
+    text += "".join(f"- seed {seed}: {fault}\n" for seed, fault in faults)
+    target.write_text(text)

@@ -1,0 +1,61 @@
+#!/usr/bin/env python3
+"""What the field trial of the two rovers reads from a flight, on records made by hand."""
+
+import json
+import tempfile
+import unittest
+from pathlib import Path
+
+from faster_flights import cause_of, circles_of, entries_into, repairs_of, without_repairs
+
+ROOT = Path(__file__).resolve().parents[2]
+STEP = "p1.9-scout_locomotion.traversing_with_ss(w0, w1)"
+
+
+def places(*spots: tuple[float, float, float]) -> list[tuple[float, str]]:
+    return [(at, f"observation primary.{axis} {value} sampled 0") for at, x, y in spots for axis, value in (("x", x), ("y", y))]
+
+
+class ReadsAFlight(unittest.TestCase):
+    def test_causes(self):
+        self.assertEqual(cause_of("plan.broken plan 2 is broken: p2.18-primary_path.planning(w3, w4): failed [path-invalid]: way: no"),
+                         "primary_path.planning: path-invalid")
+
+    def test_entries_count_only_after_the_map_had_the_circle(self):
+        way = places((0, 0, 0), (10, 1, 0), (20, 0, 0), (30, 1, 0))
+        self.assertEqual(entries_into([(0.5, 0, 0.2, 15)], way), 2, "back and again")
+        self.assertEqual(entries_into([(0.5, 0, 0.2, 25)], way), 1)
+        self.assertEqual(entries_into([(0.5, 0, 0.2, 40)], way), 0)
+        self.assertEqual(entries_into([(0.5, 1, 0.2, 0)], way), 0, "beside it")
+
+    def test_circles_since_the_primary_took_them(self):
+        with tempfile.TemporaryDirectory() as folder:
+            folder = Path(folder)
+            hazard = {"kind": "soil", "radius_m": 0.65, "x_m": 1.0, "y_m": 2.0}
+            (folder / "primary.path.hazards").write_text(json.dumps([{**hazard, "id": "scout-soil-2"}, {**hazard, "id": "scout-soil-1", "x_m": 7.0}]))
+            self.assertEqual(circles_of(folder), [], "nothing says when they came")
+            changed = [{"sender": "primary.path", "text": f"the map has version {n + 1} with {n} hazards", "time_us": n * 1e7} for n in (1, 2)]
+            (folder / "events.jsonl").write_text("".join(json.dumps(one) + "\n" for one in changed))
+            self.assertEqual(circles_of(folder), [(7.0, 2.0, 0.65, 10.0), (1.0, 2.0, 0.65, 20.0)])
+
+    def test_repairs_with_the_time_that_they_had(self):
+        rows = [(5_000_000, "trace", f"5000000 command {STEP} 1 action=0 scout.locomotion scout_locomotion TraverseWithSS from=w0 to=w1"),
+                (9_000_000, "trace", f"9000000 ack {STEP} 1 stage=0 scout.locomotion repairing drive: no-go, the wheel says No-Go")]
+        motion = {"robot": "scout", "kind": "motion"}
+        (one,) = repairs_of(rows, [{**motion, "time_us": 6_000_000}, {**motion, "time_us": 10_000_000}])
+        self.assertEqual((one.cause, one.at_s, one.used_s), ("no-go", 9, 1))
+        self.assertAlmostEqual(one.allowed_s, 5 + 1.5 / 0.0125 + 300 - 9)
+
+    def test_repairs_switched_off(self):
+        with tempfile.TemporaryDirectory() as folder:
+            bare = without_repairs(ROOT / "missions/faster", Path(folder) / "bare")
+            for file in bare.glob("*.yaml"):
+                self.assertNotIn("repairs:", [line.strip() for line in file.read_text().splitlines()], file.name)
+            before = (ROOT / "missions/faster/scout_locomotion.yaml").read_text().splitlines()
+            after = (bare / "scout_locomotion.yaml").read_text().splitlines()
+            self.assertIn("    ComeBack:", after)
+            self.assertTrue(set(after) <= set(before))
+
+
+if __name__ == "__main__":
+    unittest.main()
