@@ -91,11 +91,13 @@ TEST_F(FasterHosts, RefuseAMissingVendorAndASecondOfOneName) {
   EXPECT_EQ(steps["primary"].printed.value("trace_sha256", ""), trace_of_one_host());
 }
 
-// The mission with its last communication sooner: an hour's wait is no part of this.
+// The mission with its last communication sooner, an hour's wait is no part of this, and at the level that it begins with: at E3 what breaks waits for the ground.
 fs::path sooner(const fs::path& folder) {
   fs::copy(kMission, folder, fs::copy_options::recursive);
   edit(folder / "mission.yaml", "[3600, 5400]", "[1800, 5400]");
   edit(folder / "scenarios/trial.yaml", "opens_s: 3600", "opens_s: 1800");
+  edit(folder / "scenarios/trial.yaml", "  - {at_s: 5, order: {id: level, kind: autonomy, level: E3}}",
+       "  #");
   return folder;
 }
 
