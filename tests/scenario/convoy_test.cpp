@@ -86,7 +86,7 @@ class ConvoyReport : public ::testing::Test {
 TEST_F(ConvoyReport, ThePlanThatBrokeIsToldAsItWasExecuted) {
   const Ended ended =
       run(ROCI_SOURCE_DIR "/tests/scenario/executed_plan.sh \"$(dirname \"$(command -v roci-launch)\")\" " +
-          std::string(kMission) + " fastdds " + folder_.string() + " --scenario escalated --speed 30");
+          std::string(kMission) + " fastdds " + folder_.string() + " --scenario escalated --speed 15");
   const json plan = json::parse(ended.output, nullptr, false);
   ASSERT_TRUE(plan.is_object()) << ended.output;
   EXPECT_EQ(plan["outcome"], "broken");
