@@ -24,6 +24,18 @@ using temporal::Time;
 
 namespace {
 
+const char* code_of(RecoveryAction action) {
+  switch (action) {
+    case RecoveryAction::push:
+      return "recovery.push";
+    case RecoveryAction::retry:
+      return "recovery.retry";
+    case RecoveryAction::contingency:
+      break;
+  }
+  return "recovery.contingency";
+}
+
 /// Activities whose windows are told to the ground when these move: what a screen shows, and no work in the
 /// size of the plan.
 constexpr std::size_t kReportedAhead = 32;
@@ -76,8 +88,7 @@ void RunningPlan::step(Time now, const ReactorInputs& inputs) {
   }
   for (const RecoveryStep& recovery : done.recoveries) {
     if (recovery.action == RecoveryAction::retry) resource_monitor_.charge_again(recovery.activity, lookup);
-    state_->report(Severity::info, std::string("recovery.") + to_string(recovery.action),
-                   recovery.activity + ": " + recovery.reason);
+    state_->report(Severity::info, code_of(recovery.action), recovery.activity + ": " + recovery.reason);
   }
   for (const executive::CommandAck& ack : inputs.acks) record_.note(ack);
   forward(std::move(done), now);

@@ -17,7 +17,7 @@ const std::vector<std::string>& event_codes() {
       "plan.malformed", "plan.outdated", "plan.refused", "plan.relaunched", "plan.retry", "plan.waits", "plan.wanted",
       "planner.blocked", "planner.cycle", "planner.defect", "planner.measured", "planner.network_damaged",
       "planner.network_unwritten", "planner.no_room", "planner.verdict", "planner.warning", "pose.unusable",
-      "reserve.spent", "robot.safe", "robot.safing", "robot.unsafe", "run.foreign", "sample.refused",
+      "recovery.contingency", "recovery.push", "recovery.retry", "reserve.spent", "robot.safe", "robot.safing", "robot.unsafe", "run.foreign", "sample.refused",
       "scenario.as_expected", "scenario.over", "scenario.time-up", "scenario.unexpected", "science.find",
       "science.no_room", "service.died", "service.doubled", "service.found", "service.lost",
       "service.missed", "soil.no_go", "standby.gone", "standby.ready", "timeline.contested", "timeline.no_room",
