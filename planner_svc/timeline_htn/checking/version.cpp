@@ -89,7 +89,10 @@ void read_activities(Version& version, Faults& out) {
   for (const temporal::DecisionPoint& decision : version.plan.decisions)
     for (std::size_t choice = 1; choice < decision.choices.size(); ++choice)
       for (const std::string& id : decision.choices[choice].activities)
-        version.parts[version.part_of.at(id)].aside = true;
+        if (std::ranges::find(decision.choices.front().activities, id) ==
+            decision.choices.front().activities.end())
+          version.parts[version.part_of.at(id)].aside =
+              true;  // else the plan goes on with it, whatever is chosen
   for (Part& part : version.parts)
     for (Index above = part.parent; above != kNone && part.state; above = version.parts[above].parent)
       part.within = part.within || (version.parts[above].state &&
