@@ -1,3 +1,4 @@
+// Paths over the site and what they cost: what the service asks, over cost map, searches and table of answers.
 #pragma once
 #include <cstdint>
 #include <map>

@@ -1,3 +1,4 @@
+// The picture of the ground as a file.
 #pragma once
 #include <cstdint>
 #include <filesystem>

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "planner_svc/timeline_htn/search/decompositions.hpp"
-
 namespace roci::planner::timeline_htn::search {
 
 using model::Model, model::Problem;
@@ -57,9 +55,8 @@ Search::Search(const Model& model, const Resolver& resolver)
 }
 
 std::optional<Obstacle> Search::out_of_reach() {
-  Decompositions below(ground_, successors_);
   const auto can_be = [&](StateId state) {
-    return ground_.at(state).kind != model::StateKind::complex || below.derivable(state);
+    return ground_.at(state).kind != model::StateKind::complex || successors_.derivable(state);
   };
   const Model& model = ground_.model();
   for (const Index g : goals_) {
