@@ -276,7 +276,7 @@ int main(int argc, char** argv) {
   add_network_verbs(app, line);
   add_outlook_verbs(app, line);
   add_verb(app, line, "status", "Mission, goals, services, newest values",
-           [](lib::Client& client, const Line& l) { return cli::show_status(client, l.json); });
+           [](lib::Client& client, const Line& l) { return cli::show_status(client, words_of(l), l.json); });
   add_verb(app, line, "plan", "The running plan and the state of each activity",
            [](lib::Client& client, const Line& l) { return cli::show_plan(client, l.activity, l.json); })
       ->add_option("--why", line.activity,

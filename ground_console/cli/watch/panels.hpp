@@ -36,8 +36,8 @@ void draw_maps(const lib::MissionView& view, const std::vector<Robot>& robots,
 
 /// Several robots side by side, each with its place, its states, its map in words and as a picture, and below them the states of
 /// the team. Returns how many rows it took.
-std::size_t draw_robots(const lib::MissionView& view, const std::vector<Robot>& robots, const Rectangle& area,
-                        Canvas& canvas);
+std::size_t draw_robots(const lib::MissionView& view, const std::vector<Robot>& robots,
+                        const MissionWords& words, const Rectangle& area, Canvas& canvas);
 
 /// Decisions that are open, and repairs, those under way first. Returns how many rows it took: none where there are none.
 std::size_t draw_open(const lib::MissionView& view, const Rectangle& area, Canvas& canvas);

@@ -81,7 +81,7 @@ Canvas watch_screen(const lib::MissionView& view, std::size_t width, std::size_t
   if (one_map) draw_map(view, {2, goals_width + 1, width - goals_width - 1, top}, canvas);
   std::size_t robots_height = 1;
   if (several) {
-    robots_height = draw_robots(view, robots, {top + 3, 0, width, height * 2 / 5}, canvas);
+    robots_height = draw_robots(view, robots, words, {top + 3, 0, width, height * 2 / 5}, canvas);
   } else {
     draw_robot(view, robots, words, top + 3, canvas);
   }
