@@ -141,7 +141,7 @@ TEST_F(FasterTrial, WithoutAPathTheGroundIsTold) {
 constexpr const char* kScenarios[] = {"trial",         "trial_stopped",   "fixed_times", "marker_not_seen",
                                       "scout_no_path", "primary_blocked", "scout_lost",  "no_path",
                                       "goal_change",   "repair_overrun",  "radio_loss",  "radio_cut",
-                                      "opportunity"};
+                                      "opportunity",   "opportunity_alone"};
 #ifdef ROCI_ALL_TRANSPORTS
 constexpr const char* kTransports[] = {"inproc", "fastdds", "cyclonedds", "mixed"};
 #else
