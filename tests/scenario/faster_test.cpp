@@ -138,10 +138,10 @@ TEST_F(FasterTrial, WithoutAPathTheGroundIsTold) {
   EXPECT_THAT(deeds("motion").back(), "primary w0");
 }
 
-constexpr const char* kScenarios[] = {"trial",         "trial_stopped",   "fixed_times", "marker_not_seen",
-                                      "scout_no_path", "primary_blocked", "scout_lost",  "no_path",
-                                      "goal_change",   "repair_overrun",  "radio_loss",  "radio_cut",
-                                      "opportunity",   "opportunity_alone"};
+constexpr const char* kScenarios[] = {"nominal",         "trial",         "trial_stopped",    "fixed_times",
+                                      "marker_not_seen", "scout_no_path", "primary_blocked",  "scout_lost",
+                                      "no_path",         "goal_change",   "repair_overrun",   "radio_loss",
+                                      "radio_cut",       "opportunity",   "opportunity_alone"};
 #ifdef ROCI_ALL_TRANSPORTS
 constexpr const char* kTransports[] = {"inproc", "fastdds", "cyclonedds", "mixed"};
 #else
