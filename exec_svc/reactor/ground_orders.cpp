@@ -163,9 +163,9 @@ GroundOrders::Ruling GroundOrders::drop(const Order& order) {
       return refused(plan_->name() + " has no activity '" + order.target + "'");
     if (plan_->step_of(order.target).state == ActivityState::succeeded)
       return refused(order.target + " is done");
-    std::set<std::string> dropped{order.target};
-    for (const auto& [activity, key] : dropped_) dropped.insert(activity);
-    if (std::string fault = plan_->drop_fault(dropped); !fault.empty()) return refused(fault);
+    std::set<std::string> all{order.target};
+    for (const auto& [activity, key] : dropped_) all.insert(activity);
+    if (std::string fault = plan_->drop_fault(all); !fault.empty()) return refused(fault);
     dropped_[order.target] = order.key;
     return {OrderStage::accepted};
   }
