@@ -93,7 +93,6 @@ class FasterDecisions : public FasterFailures, public ::testing::WithParamInterf
 TEST_P(FasterDecisions, OfTheEngineAreAnsweredOnceAcrossADeath) {
   edit(mission_ / "behaviours.yaml", "        resolver: rule\n        before: follow.start",
        "        resolver: engine\n        before: follow.start");
-  edit(mission_ / "mission.yaml", "{name: exec_svc}", "{name: exec_svc, standby: true}");
   const Ended ended = run("ROCI_CRASH=" + std::string(GetParam().at) + " roci-launch " + mission_.string() +
                           " --scenario trial --dds " + GetParam().dds + GetParam().more +
                           " --speed max --headless --json --run-folder " + (folder_ / "run").string());
