@@ -5,7 +5,8 @@
 #   roci_plugin (NAME roci_transport_inproc HELP "..." SOURCES ... DEPENDS ...)        installed to lib/rocinante/
 #   roci_test_library(NAME scenario_flight HELP "..." SOURCES flight.cpp DEPENDS ...)   what tests of one folder share
 #   roci_test   (NAME unit_pddl SOURCES parser_test.cpp DEPENDS core_pddl [LABEL contract] [SERIAL | PROCESSORS 2] [OPTIMIZED] [WHOLE])
-#     SERIAL: alone, since it is about who is late; PROCESSORS 2: beside one other, since it flies every process of a mission
+#     SERIAL: alone, since a second beside it would change what it is about; PROCESSORS 2: beside one other, since it computes on both or is about
+#     who is late. A flight that waits for its pace needs neither (CONTRIBUTING.md)
 #     OPTIMIZED: its own code is a long search (an oracle, an explorer, a fuzzer); others are compiled without, which takes a quarter less time
 #     WHOLE: all its cases are one test, since they look at one flight from several sides
 #

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "services/process/domain_claim.hpp"
 #include "tests/scenario/flight.hpp"
 
 namespace roci::scenario {
@@ -79,6 +80,8 @@ INSTANTIATE_TEST_SUITE_P(Transports, Convoy, ::testing::Values("inproc", "fastdd
 class ConvoyReport : public ::testing::Test {
  protected:
   ~ConvoyReport() override { fs::remove_all(folder_); }
+  const services::process::DomainClaim claim_;
+  const std::string domain_ = std::to_string(claim_.id());  // other runs of this machine are not asked
   const fs::path folder_ = fs::temp_directory_path() / ("roci_convoy_report_" + std::to_string(::getpid()));
 };
 
@@ -86,7 +89,8 @@ class ConvoyReport : public ::testing::Test {
 TEST_F(ConvoyReport, ThePlanThatBrokeIsToldAsItWasExecuted) {
   const Ended ended =
       run(ROCI_SOURCE_DIR "/tests/scenario/executed_plan.sh \"$(dirname \"$(command -v roci-launch)\")\" " +
-          std::string(kMission) + " fastdds " + folder_.string() + " --scenario escalated --speed 15");
+          std::string(kMission) + " fastdds " + domain_ + " " + folder_.string() +
+          " --scenario escalated --speed 15");
   const json plan = json::parse(ended.output, nullptr, false);
   ASSERT_TRUE(plan.is_object()) << ended.output;
   EXPECT_EQ(plan["outcome"], "broken");
@@ -104,7 +108,8 @@ TEST_F(ConvoyReport, ThePlanThatBrokeIsToldAsItWasExecuted) {
 TEST_F(ConvoyReport, ThePlanThatWasStoppedIsToldAsItWasExecuted) {
   const Ended ended =
       run(ROCI_SOURCE_DIR "/tests/scenario/executed_plan.sh \"$(dirname \"$(command -v roci-launch)\")\" " +
-          std::string(kMission) + " cyclonedds " + folder_.string() + " --scenario trial_stopped --speed 30");
+          std::string(kMission) + " cyclonedds " + domain_ + " " + folder_.string() +
+          " --scenario trial_stopped --speed 30");
   const json plan = json::parse(ended.output, nullptr, false);
   ASSERT_TRUE(plan.is_object()) << ended.output;
   EXPECT_EQ(plan["outcome"], "cancelled");
@@ -117,9 +122,9 @@ TEST_F(ConvoyReport, ThePlanThatWasStoppedIsToldAsItWasExecuted) {
 
 // E1: the console waits for what became of its command.
 TEST_F(ConvoyReport, ACommandOfTheConsoleIsAnsweredWithWhatItBrought) {
-  const Ended ended =
-      run(ROCI_SOURCE_DIR "/tests/scenario/single_command.sh \"$(dirname \"$(command -v roci-launch)\")\" " +
-          std::string(kMission) + " fastdds " + folder_.string() + " scout Scout from=w0 to=w1");
+  const Ended ended = run(
+      ROCI_SOURCE_DIR "/tests/scenario/single_command.sh \"$(dirname \"$(command -v roci-launch)\")\" " +
+      std::string(kMission) + " fastdds " + domain_ + " " + folder_.string() + " scout Scout from=w0 to=w1");
   std::vector<std::string> lines;
   std::istringstream text(ended.output);
   for (std::string line; std::getline(text, line);) lines.push_back(line);

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "services/process/domain_claim.hpp"
 #include "tests/scenario/flight.hpp"
 
 namespace roci::scenario {
@@ -126,10 +127,11 @@ class Idling : public ::testing::TestWithParam<const char*> {
 // R129: idle from the plan's end to the next plan. What the plan has brought about on a timeline that nobody observes is told like an
 // observation (R135), also by an executive that was killed meanwhile and plans on from there.
 TEST_P(Idling, IsShownWithWhatThePlanHasBroughtAbout) {
+  const services::process::DomainClaim domain;
   const Ended ended =
       run(ROCI_SOURCE_DIR "/tests/scenario/idle.sh \"$(dirname \"$(command -v roci-launch)\")\" " +
-          std::string(kPorter) + " " + GetParam() + " " + folder_.string() +
-          " errand --scenario cycle --speed 60");
+          std::string(kPorter) + " " + GetParam() + " " + std::to_string(domain.id()) + " " +
+          folder_.string() + " errand --scenario cycle --speed 60");
   std::vector<json> lines;
   std::istringstream text(ended.output);
   for (std::string line; std::getline(text, line);) lines.push_back(json::parse(line, nullptr, false));

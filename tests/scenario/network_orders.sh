@@ -15,7 +15,7 @@ step() {  # name arguments…: one call of roci
   printf '%s\t%s\t%s\n' "$name" $code "$(tail -n 1 <<<"$output")"
 }
 
-"$bin/roci-launch" "$mission" --dds "$dds" --domain "$domain" --speed 200 --headless --json --scenario ground \
+"$bin/roci-launch" "$mission" --dds "$dds" --domain "$domain" --speed 300 --headless --json --scenario ground \
   --run-folder "$folder/run" >"$folder/summary" &
 launcher=$!
 timeout 30 "$bin/roci" --dds "${dds/mixed/cyclonedds}" --domain "$domain" events --count 1 >"$folder/first"

@@ -31,6 +31,11 @@ class NetworkOrders : public ::testing::TestWithParam<const char*> {
   }
   ~NetworkOrders() override { fs::remove_all(folder_); }
 
+  // The flight ends with the farewell, which waits for its window.
+  void end_sooner() const {
+    edit(mission_ / "network.yaml", "window_s: [7200, none]", "window_s: [3000, none]");
+  }
+
   // Packs the mission's network with two changes.
   void pack(const std::string& name, const std::string& right, const std::string& wrong,
             const std::string& right_2 = "", const std::string& wrong_2 = "") const {
@@ -152,6 +157,8 @@ TEST_P(NetworkOrders, TakeEffectOneLightTimeLater) {
 }
 
 TEST_P(NetworkOrders, ANetworkOutlivesThePlanner) {
+  end_sooner();
+  pack("near.htn", "version: 1\n", "version: 2\n", "sets: {sites: [near, far]}", "sets: {sites: [near]}");
   scenario("  - {at_s: 600, network: {id: n2, file: ../near.htn}}\n",
            "  - network.accepted: ground/n2\n  - network.in_force: ground/n2\n");
   const std::string list = (run_ / "networks/orders.json").string();
@@ -215,7 +222,7 @@ TEST_P(NetworkOrders, EachClassOfTheGroundIsOneActionOfTheConsole) {
   edit(mission_ / "network.yaml", "  hand: {kind: atomic}\n",
        "  hand: {kind: atomic}\n  lander.go: {kind: state, states: [wait, go], initial: wait}\n");
   edit(mission_ / "network.yaml", "    window_s: [7200, none]\n",
-       "    window_s: [7200, none]\n    pre: \"lander.go = go\"\n");
+       "    window_s: [3000, none]\n    pre: \"lander.go = go\"\n");
   fs::copy_file(mission_ / "network.yaml", mission_ / "changed.yaml", fs::copy_options::overwrite_existing);
   edit(mission_ / "changed.yaml", "version: 1\n", "version: 2\n");
   edit(mission_ / "changed.yaml", "worth: 0.1", "worth: 0.15");

@@ -31,7 +31,7 @@ other() {  # waits for one that is not this one
   echo "$found"
 }
 
-"$bin/roci-launch" "$mission" --dds "$dds" --domain "$domain" --speed 40 --headless --json --run-folder "$folder/run" \
+"$bin/roci-launch" "$mission" --dds "$dds" --domain "$domain" --speed 100 --headless --json --run-folder "$folder/run" \
   >"$folder/summary" 2>"$folder/errors" &
 launcher=$!
 first=$(other "")

@@ -63,9 +63,29 @@ TEST(PlantedRule, ThatASilentOwnerNeedNotBeHeldIsFoundOut) {
   EXPECT_THAT(explore(bounds, Bug::none).way, IsEmpty());
 }
 
+struct Name {
+  std::string operator()(const ::testing::TestParamInfo<Bug>& test) const {
+    switch (test.param) {
+      case Bug::no_owner_leases:
+        return "no_owner_leases";
+      case Bug::goals_not_merged:
+        return "goals_not_merged";
+      case Bug::recall_not_merged:
+        return "recall_not_merged";
+      case Bug::acknowledges_early:
+        return "acknowledges_early";
+      case Bug::none:
+      case Bug::silent_owner_not_held:
+        break;
+    }
+    return "unnamed";
+  }
+};
+
 INSTANTIATE_TEST_SUITE_P(Bugs, Planted,
                          ::testing::Values(Bug::no_owner_leases, Bug::goals_not_merged,
-                                           Bug::recall_not_merged, Bug::acknowledges_early));
+                                           Bug::recall_not_merged, Bug::acknowledges_early),
+                         Name());
 
 }  // namespace
 }  // namespace roci::exec::testing

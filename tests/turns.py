@@ -1,0 +1,49 @@
+#!/usr/bin/env python3
+"""turns.py BUILD: holds tests/turns.txt to its word. Each row names tests that there are and that are not in ./check --full alone, none stands
+twice, and the three turns take about as long. That no test is left out follows: ./check leaves out what stands there under another turn, and
+./check --full does not read the file."""
+import json
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+TURNS = 3
+UNEVEN = 1.25  # the longest turn by the shortest
+
+
+def main(build):
+    listed = subprocess.run(["ctest", "--test-dir", build, "--show-only=json-v1"], check=True, capture_output=True, text=True).stdout
+    names = []
+    for test in json.loads(listed)["tests"]:
+        labels = next((p["value"] for p in test.get("properties", []) if p["name"] == "LABELS"), [])
+        if "full" not in labels:
+            names.append(test["name"])
+    page = Path(__file__).with_name("turns.txt")
+    seconds = [0.0] * TURNS
+    told, taken = [], {}
+    for number, line in enumerate(page.read_text(encoding="utf-8").splitlines(), 1):
+        if not line or line.startswith("#"):
+            continue
+        row = re.fullmatch(r"([0-2]) +(\d+) +(\S+)", line)
+        if not row:
+            told.append(f"{page}:{number}: no row of turn, seconds, name: {line}")
+            continue
+        seconds[int(row[1])] += float(row[2])
+        # As ./check has it.
+        whole = re.compile(rf"(^|/)({row[3]})([/_](inproc|fastdds|cyclonedds|mixed))?( |$)")
+        found = [name for name in names if whole.search(name)]
+        if not found:
+            told.append(f"{page}:{number}: there is no test {row[3]} outside ./check --full; name it as ctest -N does, or take the row out")
+        for name in found:
+            if name in taken:
+                told.append(f"{page}:{number}: {name} stands in line {taken[name]}, too")
+            taken[name] = number
+    if max(seconds) > UNEVEN * min(seconds):
+        told.append(f"{page}: the turns are uneven: {', '.join(f'{s:.0f} s' for s in seconds)}; move a row to the shortest")
+    print("\n".join(told) or f"{len(taken)} tests take turns: {', '.join(f'{s:.0f} s' for s in seconds)}")
+    return 1 if told else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1]))
