@@ -92,7 +92,7 @@ def read(flight: Flight, folder: Path, journal: str = "journal.sqlite") -> None:
 
 
 def repairs_of(rows: list[tuple[int, str, str]], effects: list[dict]) -> list[Repair]:
-    drives = [one["time_us"] / 1e6 for one in effects if one["robot"] == "scout" and one["kind"] == "motion"]
+    drives = [(one["time_us"] / 1e6, one["object"]) for one in effects if one["robot"] == "scout" and one["kind"] == "motion"]
     metres = leg_metres()
     begun, out = {}, []
     for us, kind, text in rows:
@@ -108,7 +108,7 @@ def repairs_of(rows: list[tuple[int, str, str]], effects: list[dict]) -> list[Re
         at = us / 1e6
         leg = re.search(r"traversing_with_ss\((\w+), (\w+)\)", activity)
         limit = metres.get((leg[1], leg[2]), 0) / 0.0125 + 300 if leg else 0  # as in domain.yaml
-        after = [one for one in drives if one >= at] if leg else []
+        after = [since for since, to in drives if since >= at and to == leg[2]] if leg else []  # and not back first
         end = begun.get(activity, at) + limit
         error = error if "-" in error else "path-invalid"  # which is told by its reason alone
         out.append(Repair(error, at, min(after) - at if after and min(after) <= end else None, end - at if leg else 0))
