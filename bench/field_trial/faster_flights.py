@@ -24,6 +24,7 @@ class Repair:
     at_s: float
     used_s: float | None  # from the No-Go to the next drive on new paths; nothing: there was none
     allowed_s: float  # that the decision had left
+    ended_well: bool  # the step that it was for was carried out
 
 
 @dataclass
@@ -94,6 +95,7 @@ def read(flight: Flight, folder: Path, journal: str = "journal.sqlite") -> None:
 def repairs_of(rows: list[tuple[int, str, str]], effects: list[dict]) -> list[Repair]:
     drives = [(one["time_us"] / 1e6, one["object"]) for one in effects if one["robot"] == "scout" and one["kind"] == "motion"]
     metres = leg_metres()
+    well = {found[1] for _, kind, text in rows if kind == "trace" and (found := re.search(r"ack (\S+?-\S+?(?:\([^)]*\))?) \d+ stage=2 ", text))}
     begun, out = {}, []
     for us, kind, text in rows:
         words = text.split(" ")
@@ -111,7 +113,7 @@ def repairs_of(rows: list[tuple[int, str, str]], effects: list[dict]) -> list[Re
         after = [since for since, to in drives if since >= at and to == leg[2]] if leg else []  # and not back first
         end = begun.get(activity, at) + limit
         error = error if "-" in error else "path-invalid"  # which is told by its reason alone
-        out.append(Repair(error, at, min(after) - at if after and min(after) <= end else None, end - at if leg else 0))
+        out.append(Repair(error, at, min(after) - at if after and min(after) <= end else None, end - at if leg else 0, activity in well))
     return out
 
 
