@@ -27,7 +27,6 @@ class Relaxation {
         cancelled_(cancelled),
         ground_(model),
         successors_(ground_, bindings_, Order::first_declared),
-        below_(ground_, successors_),
         timelines_(model.components.size()) {
     for (const auto& component : model.components)
       for (const auto& state : component.states)
@@ -252,7 +251,8 @@ class Relaxation {
       if (nested && !is_complex(part)) return;
       way.parts.push_back(part);
     }
-    if (task.state == kNone || below_.derivable(index, objects)) task.ways.push_back(std::move(way));
+    if (task.state == kNone || successors_.below().derivable(index, objects))
+      task.ways.push_back(std::move(way));
     way_bytes_ += 120;
   }
 
@@ -416,7 +416,6 @@ class Relaxation {
   Ground ground_;
   Bindings bindings_;
   Successors successors_;
-  Decompositions below_;
   std::set<std::pair<Index, Index>> left_for_another_;  // states to rest in that a need may end
   std::vector<Timeline> timelines_;
   std::vector<Mark> marks_;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "planner_svc/timeline_htn/search/decompositions.hpp"
+
 namespace roci::planner::timeline_htn::search {
 
 using model::Model, model::Problem;
@@ -59,7 +61,7 @@ Search::Search(const Model& model, const Resolver& resolver)
 
 std::optional<Obstacle> Search::out_of_reach() {
   const auto can_be = [&](StateId state) {
-    return ground_.at(state).kind != model::StateKind::complex || successors_.derivable(state);
+    return ground_.at(state).kind != model::StateKind::complex || successors_.below().derivable(state);
   };
   const Model& model = ground_.model();
   for (const Index g : goals_) {
