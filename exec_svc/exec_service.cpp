@@ -4,7 +4,6 @@
 #include <csignal>
 #include <cstdlib>
 #include <exception>
-#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -22,6 +21,8 @@
 #include "exec_svc/mission_report_service.hpp"
 #include "exec_svc/order_link_service.hpp"
 #include "exec_svc/output_publisher_service.hpp"
+#include "exec_svc/owners_presence_service.hpp"
+#include "exec_svc/planner_link_service.hpp"
 #include "exec_svc/run_files_service.hpp"
 #include "exec_svc/standby/goals_apart.hpp"
 #include "exec_svc/standby/leader_service.hpp"
@@ -30,7 +31,6 @@
 #include "services/log/log.hpp"
 #include "services/owner/command.hpp"
 #include "services/process/disk_pause.hpp"
-#include "services/rpc.hpp"
 #include "services/wire/plan_wire.hpp"
 
 namespace roci::exec {
@@ -50,34 +50,19 @@ using reactor::Event;
 using reactor::GivenAnswer;
 using reactor::PlannedAction;
 using reactor::PlanReply;
-using reactor::PlanRequest;
 using reactor::Reactor;
 using reactor::ReactorInputs;
 using reactor::ReactorOutputs;
 using reactor::Severity;
 using standby::GoalsApart;
 using standby::LeaderService;
-using temporal::Verdict;
 
 namespace {
 
 namespace topics = services::topics;
 using services::Node;
 
-// For known services to be heard of after a restart; of wall time, live.
-temporal::Duration reunion(const Node& node) {
-  const bool live = node.options().clock == services::clock::ClockMode::live;
-  return temporal::seconds(5 * (live ? node.options().live_scale : 1));
-}
-
-constexpr char kPlanner[] = "planner_svc";
 constexpr double kListenS = 2;  // wall time
-
-std::string planner_of(const MissionModel& mission, const services::RunSettings& settings) {
-  if (!mission.planner.service.empty()) return mission.planner.service;
-  const std::string serving = services_of(settings).serving(kPlanner, mission.role.robot);
-  return serving.empty() ? kPlanner : serving;
-}
 
 bool is_in_doubt(const Journal& journal) {
   return !journal.text(journal::kDamage).empty() || !journal.text(journal::kShortened).empty();
@@ -104,7 +89,6 @@ class ExecService final : public services::Service {
       : node_(node),
         settings_(settings),
         mission_(mission_behind_links(node, settings)),
-        planner_service_(planner_of(mission_, settings)),
         summary_file_(run_file(settings, node.options().name, services::kSummaryFile)),
         journal_(journal),
         epoch_(epoch),
@@ -112,7 +96,14 @@ class ExecService final : public services::Service {
         apart_(std::move(apart)),
         reactor_(mission_, journal_, doubtful || is_in_doubt(journal)),
         crash_(crash_points(node)),
-        planner_(node, topics::plan_request),
+        planner_(node, settings, mission_, journal_, [this](PlanReply reply) { take(std::move(reply)); }),
+        presence_(node, journal_, owners_of(mission_), mission_.executive.owner_return,
+                  {[this](const services::health::PeerChange& change) { heed(change); },
+                   [this](const std::string& service, const std::string& cause) {
+                     inputs_.losses.push_back({service, cause});
+                   },
+                   [this](const std::string& service) { inputs_.arrivals.push_back(service); },
+                   [this] { step_soon(); }}),
         publisher_(node, mission_, epoch, crash_),
         strangers_([this](const Event& event) { publisher_.report(event); }),
         decisions_(
@@ -145,7 +136,7 @@ class ExecService final : public services::Service {
       inputs_.models.push_back(model);
       step_soon();
     });
-    node.on_peer_change([this](const services::health::PeerChange& change) { take(change); });
+    node.on_peer_change([this](const services::health::PeerChange& change) { presence_.take(change); });
     if (leader_ != nullptr) join_pair();
     if (leader_ == nullptr && node.options().incarnation == 1) {
       listen_first();
@@ -167,8 +158,6 @@ class ExecService final : public services::Service {
     const Recovery& recovery = reactor_.recovery();
     tell_damage();
     if (!recovery.restarted) return;
-    slowest_call_s_ = temporal::to_seconds(temporal::Duration(journal_.number("slowest_call_us", 0)));
-    planner_peak_kb_ = static_cast<std::uint32_t>(journal_.number("planner_peak_kb", 0));
     const Reactor& reactor = reactor_.reactor();
     publisher_.send_goals(reactor);
     if (!recovery.resumed) {
@@ -180,8 +169,7 @@ class ExecService final : public services::Service {
     orders_.tell(reactor);
     if (engine_) engine_->tell(reactor.receipt());
     for (const Event& event : recovery.last_events) publisher_.report(event);
-    missed_ = journal_.peers();
-    node_.after(reunion(node_), [this] { give_up_missed(); });
+    presence_.recall_peers();
   }
 
   // A second executive of this name would have ended by then (services/health/namesake_watch.hpp), and has begun
@@ -287,45 +275,11 @@ class ExecService final : public services::Service {
     step_soon();
   }
 
-  void take(const services::health::PeerChange& change) {
-    if (!change.alive && mission_.executive.owner_return > temporal::Duration(0) &&
-        mission::owners_of(mission_).contains(change.service))
-      return wait_for(change);
-    if (const auto dead = awaited_.extract(change.service)) node_.cancel(dead.mapped());
-    lose_or_find(change);
-  }
-
-  // It may go on where it stood: its commands are not lost before it has had time to come back.
-  void wait_for(const services::health::PeerChange& change) {
-    awaited_[change.service] = node_.after(mission_.executive.owner_return, [this, change] {
-      awaited_.erase(change.service);
-      lose_or_find(change);
-    });
-  }
-
-  void lose_or_find(const services::health::PeerChange& change) {
-    const auto known = missed_.extract(change.service);
+  void heed(const services::health::PeerChange& change) {
     publisher_.forget_told(change.service);
-    if (!change.alive) sources_.forget(change.service);
-    if (!change.alive) publisher_.lose_owner(change.service);
-    if (!change.alive) {
-      journal_.remove_peer(change.service);
-      inputs_.losses.push_back({change.service, change.cause});
-    } else if (known.empty() || known.mapped() != change.incarnation) {
-      journal_.put_peer(change.service, change.incarnation);
-      if (!known.empty())
-        inputs_.losses.push_back({change.service, "restarted while the executive was away"});
-      inputs_.arrivals.push_back(change.service);
-    }
-    step_soon();
-  }
-
-  void give_up_missed() {
-    for (const auto& [service, incarnation] : std::exchange(missed_, {})) {
-      journal_.remove_peer(service);
-      inputs_.losses.push_back({service, "gone since the executive was away"});
-    }
-    step_soon();
+    if (change.alive) return;
+    sources_.forget(change.service);
+    publisher_.lose_owner(change.service);
   }
 
   void take(const v1::Observation& observation) {
@@ -464,36 +418,11 @@ class ExecService final : public services::Service {
     };
     if (std::ranges::any_of(out.decisions, is_open)) crash_.pass("after-question");
     if (leader_ != nullptr) tell_pair();
-    if (out.cancelled_call && call_.id == *out.cancelled_call) planner_.cancel(call_.sent);
-    if (out.call) call_planner(*out.call);
+    planner_.send(out);
     if (out.receipt) engine_->tell(*out.receipt);
   }
 
-  void call_planner(const PlanRequest& call) {
-    call_.id = call.id;
-    call_.sent = planner_.call(
-        to_wire(call, mission_), planner_service_, mission_.planner.reply_timeout,
-        [this, id = call.id](const services::CallResult<v1::PlanReply>& result) { take(id, result); });
-  }
-
-  void take(std::uint64_t call, const services::CallResult<v1::PlanReply>& result) {
-    PlanReply reply;
-    reply.call = call;
-    reply.verdict =
-        result.status == services::rpc::CallStatus::cancelled ? Verdict::cancelled : Verdict::no_reply;
-    reply.reason = result.reason;
-    if (result.status == services::rpc::CallStatus::ok) {
-      slowest_call_s_ = std::max(slowest_call_s_, result.reply.statistics().wall_s());
-      planner_peak_kb_ = std::max(planner_peak_kb_, result.reply.statistics().peak_rss_kb());
-      journal_.set_number("slowest_call_us", temporal::seconds(slowest_call_s_).count());
-      journal_.set_number("planner_peak_kb", planner_peak_kb_);
-      try {
-        reply = from_wire(call, result.reply);
-      } catch (const services::wire::WireError& error) {
-        reply.verdict = Verdict::crashed;
-        reply.reason = error.what();
-      }
-    }
+  void take(PlanReply reply) {
     inputs_.reply = std::move(reply);
     crash_.pass("after-answer");
     step_soon();
@@ -501,14 +430,13 @@ class ExecService final : public services::Service {
 
   void write_summary() const {
     exec::write_summary(summary_file_, settings_, mission_, reactor_.reactor(),
-                        {slowest_call_s_, planner_peak_kb_ / 1024.0, temporal::to_seconds(node_.now()),
+                        {planner_.slowest_call_s(), planner_.peak_mib(), temporal::to_seconds(node_.now()),
                          reactor_.trace_sha256(), journal_.file(), epoch_});
   }
 
   Node& node_;
   services::RunSettings settings_;
   MissionModel mission_;
-  std::string planner_service_;  // that is called
   // It is named while the mission file is there; the destructor reads nothing any more.
   std::filesystem::path summary_file_;
   Journal& journal_;
@@ -519,23 +447,16 @@ class ExecService final : public services::Service {
   CrashPoints crash_;
   TimelineSources sources_;
   ReactorInputs inputs_;
-  std::vector<std::string> seen_;                // the inputs' lines of the trace
-  std::map<std::string, std::uint32_t> missed_;  // services of before the restart, not heard of since
-  std::map<std::string, services::Node::TimerId> awaited_;  // owners that died and may come back in time
+  std::vector<std::string> seen_;  // the inputs' lines of the trace
   bool step_due_ = false;
   std::optional<Node::TimerId> wake_timer_;
   services::process::DiskPause disk_pause_{leader_ == nullptr ? services::process::DiskPause(node_)
                                                               : services::process::DiskPause()};
   std::string disk_cause_;  // why it was waited for
-  double slowest_call_s_ = 0;
-  std::uint32_t planner_peak_kb_ = 0;
 
   std::optional<EngineLink> engine_;  // one that plans all the time
-  services::Client<v1::PlanRequest, v1::PlanReply> planner_;
-  struct {
-    std::uint64_t id = 0;            // the reactor's
-    services::rpc::CallId sent = 0;  // the wire's
-  } call_;                           // the last one
+  PlannerLink planner_;
+  OwnersPresence presence_;
   OutputPublisher publisher_;
   Strangers strangers_;
   DecisionLink decisions_;

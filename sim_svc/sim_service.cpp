@@ -52,6 +52,7 @@ constexpr std::size_t kExecutives = 256;
 constexpr char kGround[] = "ground";  // who tells of hazards that the scenario states
 constexpr Duration kCallDeadline = std::chrono::seconds(30);
 constexpr Duration kFarewell = std::chrono::seconds(1);  // from the mission's outcome to the end of the run
+constexpr std::string_view kEnd = "\n]\n";               // of begun.json
 
 // Returns the scenario's first order of the ground; null: there is none.
 const Stimulus* first_order(const Scenario& scenario) {
@@ -101,7 +102,10 @@ class SimService final : public services::Service, private owner::Driver {
     }
     if (!run_folder_.empty()) effects_.open(run_folder_ / "effects.jsonl", std::ios::app);
     if (!run_folder_.empty()) fates_.open(run_folder_ / "products.jsonl", std::ios::app);
-    if (!run_folder_.empty()) begun_.open(run_folder_ / "begun.json");
+    if (!run_folder_.empty()) {
+      begun_.open(run_folder_ / "begun.json");
+      begun_ << "[" << kEnd << std::flush;
+    }
     services::subscribe(node, topics::mission_status, [this](const v1::MissionStatus& status) {
       if (executives_.size() >= kExecutives && !executives_.contains(status.executive())) return;
       executives_[status.executive()] = standing_of(status);
@@ -311,7 +315,7 @@ class SimService final : public services::Service, private owner::Driver {
 
   void end(const std::string& code, const std::string& text) {
     announce(v1::SEVERITY_INFO, code, text);
-    report_begun();
+    record_begun();
     if (order_.expected() > 0) report_order();
     node_.stop();
   }
@@ -334,21 +338,18 @@ class SimService final : public services::Service, private owner::Driver {
     }
   }
 
-  // What was really done, for whoever asks after the run whether anything was done twice: one array, written as it grows.
+  // What was really done, for whoever asks after the run whether anything was done twice: one array, written as it grows, and whole
+  // however the process ends.
   void record_begun() {
     for (const world::Begun& one : world_.take_begun()) {
       const nlohmann::json entry{{"time_us", one.at.count()},         {"robot", one.robot},
                                  {"component", one.component},        {"commander", one.task.key.commander},
                                  {"activity", one.task.key.activity}, {"attempt", one.task.key.attempt},
                                  {"command", one.task.command},       {"arguments", one.task.arguments}};
+      begun_.seekp(-static_cast<std::streamoff>(kEnd.size()), std::ios::end);
       begun_ << std::exchange(begun_separator_, ",\n")
-             << entry.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+             << entry.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) << kEnd << std::flush;
     }
-  }
-
-  void report_begun() {
-    record_begun();
-    begun_ << (begun_separator_[0] == '[' ? "[]\n" : "]\n") << std::flush;
   }
 
   // Writes the result for whoever started the run; the summary takes it up as `expected`.
@@ -370,7 +371,7 @@ class SimService final : public services::Service, private owner::Driver {
   std::ofstream effects_;
   std::ofstream fates_;  // of data products
   std::ofstream begun_;
-  const char* begun_separator_ = "[\n";
+  const char* begun_separator_ = "\n";
   scenario::EventOrder order_;
   world::World world_;
   services::Client<v1::PathRequest, v1::PathReply> paths_;

@@ -24,6 +24,7 @@ class Repair:
     at_s: float
     used_s: float | None  # from the No-Go to the next drive on new paths; nothing: there was none
     allowed_s: float  # that the decision had left
+    ended_well: bool  # the step that it was for was carried out
 
 
 @dataclass
@@ -80,7 +81,8 @@ def read(flight: Flight, folder: Path, journal: str = "journal.sqlite") -> None:
     flight.marks = len(circles)
     flight.entries = entries_into(circles, trace)
     for name in ("long_traverse", "last_communication"):
-        if goals.get(name, (-1, ""))[0] not in FINAL:
+        state, reason = goals.get(name, (-1, ""))
+        if state not in FINAL and not reason.startswith("waiting for the ground"):
             flight.faults.append(f"goal {name} has no end")
     if flight.result not in ("achieved", "partial"):
         flight.faults.append(f"no defined end: result '{flight.result}' at {flight.sim_s:.0f} s")
@@ -91,8 +93,9 @@ def read(flight: Flight, folder: Path, journal: str = "journal.sqlite") -> None:
 
 
 def repairs_of(rows: list[tuple[int, str, str]], effects: list[dict]) -> list[Repair]:
-    drives = [one["time_us"] / 1e6 for one in effects if one["robot"] == "scout" and one["kind"] == "motion"]
+    drives = [(one["time_us"] / 1e6, one["object"]) for one in effects if one["robot"] == "scout" and one["kind"] == "motion"]
     metres = leg_metres()
+    well = {found[1] for _, kind, text in rows if kind == "trace" and (found := re.search(r"ack (\S+?-\S+?(?:\([^)]*\))?) \d+ stage=2 ", text))}
     begun, out = {}, []
     for us, kind, text in rows:
         words = text.split(" ")
@@ -107,10 +110,10 @@ def repairs_of(rows: list[tuple[int, str, str]], effects: list[dict]) -> list[Re
         at = us / 1e6
         leg = re.search(r"traversing_with_ss\((\w+), (\w+)\)", activity)
         limit = metres.get((leg[1], leg[2]), 0) / 0.0125 + 300 if leg else 0  # as in domain.yaml
-        after = [one for one in drives if one >= at] if leg else []
+        after = [since for since, to in drives if since >= at and to == leg[2]] if leg else []  # and not back first
         end = begun.get(activity, at) + limit
         error = error if "-" in error else "path-invalid"  # which is told by its reason alone
-        out.append(Repair(error, at, min(after) - at if after and min(after) <= end else None, end - at if leg else 0))
+        out.append(Repair(error, at, min(after) - at if after and min(after) <= end else None, end - at if leg else 0, activity in well))
     return out
 
 

@@ -54,11 +54,12 @@ Written by `bench/field_trial/faster.py` ([how it works](../bench/field_trial/RE
     roci-launch missions/faster --scenario hidden --seed {first} --dds inproc --speed max --headless --run-folder FOLDER
 
 {arrivals(records)}
-## Repairs without a new plan
+## Repairs
 
-By the error that they are for ({len(repairs)}):
+By the error that they are for, {len(repairs)} in all; of {sum(one.ended_well for one in repairs)} the step went on to its end without a new plan:
 
-{counted([one.cause for one in repairs], "error")}
+{counted([one.cause for one in repairs if one.ended_well], "error, repaired without a new plan")}
+{counted([one.cause for one in repairs if not one.ended_well], "error whose step failed all the same")}
 **From the No-Go to both new paths**: {len(drives)} times the scout drove on, on new paths, within its decision. Time used in seconds of mission time, median
 {quantiles([one.used_s for one in drives])}; share of the time that the decision had left, median {quantiles([one.used_s / one.allowed_s for one in drives])}.
 

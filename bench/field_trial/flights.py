@@ -16,7 +16,6 @@ import problem
 CLASSES = ["hard", "optional", "opportunistic"]  # exec_svc/goals/goal_set.hpp
 STATES = ["rejected", "pending", "planned", "achieved", "dropped", "failed", "recalled"]
 FINAL = {"rejected", "achieved", "dropped", "failed", "recalled"}
-MISSION_WORK = 4000  # evaluations of a planner call, as in mission.yaml
 FLIGHT_LIMIT_S = 3000  # of wall time; only for a flight that hangs
 
 
@@ -89,6 +88,11 @@ class Flight:
     branches: dict[str, int] = field(default_factory=dict)  # R49
     first_plan_s: float | None = None  # makespan of the first plan, as adopted
     faults: list[str] = field(default_factory=list)  # invariants that do not hold
+
+
+def mission_work(mission: Path) -> int:
+    """Evaluations of a planner call, as mission.yaml has them."""
+    return int(re.search(r"\bwork: (\d+)", (mission / "mission.yaml").read_text()).group(1))
 
 
 def lay_out_mission(mission: Path, folder: Path, changes: dict[str, str] | None = None) -> Path:

@@ -13,7 +13,7 @@ from pathlib import Path
 
 import problem
 import reference
-from flights import MISSION_WORK, Flight, Programs, lay_out_mission, rehearse
+from flights import Flight, Programs, lay_out_mission, mission_work, rehearse
 from scenarios import PREDICTED_WINDOWS, UPLOAD_S, Goal, Rock, Scenario
 
 MODEL_SPEED_M_S = 0.1  # mission.yaml: rover.speed_m_s
@@ -40,7 +40,7 @@ def lay_out(scenario: Scenario, goals: Known, rocks: list[Rock], mission: Path, 
     discs = ", ".join(f"{{x: {x}, y: {y}, radius_m: {radius}}}" for x, y, radius in rocks)
     changes = {
         f"open: {PREDICTED_WINDOWS}": f"open: {scenario.windows}",
-        f"work: {MISSION_WORK}": "work: 1",  # the values of that call are wanted, not its plan
+        f"work: {mission_work(mission)}": "work: 1",  # the values of that call are wanted, not its plan
         "\nrover:\n  {": f"\nrover:\n  {{keep_out: [{discs}], ",
     }
     lay_out_mission(mission, folder, changes)

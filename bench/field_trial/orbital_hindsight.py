@@ -10,7 +10,7 @@ import shutil
 from pathlib import Path
 
 import problem
-from flights import MISSION_WORK, Flight, Programs, lay_out_mission, rehearse
+from flights import Flight, Programs, lay_out_mission, mission_work, rehearse
 from hindsight import LARGEST, Hindsight, best_subset
 from orbital_reference import Scheduler, read
 from orbital_scenarios import DURATION_S, UPLOAD_S, Goal, Scenario
@@ -32,7 +32,8 @@ def told(goals: list[Goal]) -> list[tuple[int, Goal]]:
 def first_call(programs: Programs, scenario: Scenario, changes: dict[str, str], folder: Path) -> Path:
     """Flies to the first planner call: its problem, beside its values. Its plan is not wanted."""
     shutil.rmtree(folder, ignore_errors=True)
-    lay_out_mission(programs.mission, folder / "orbital", {f"work: {MISSION_WORK}": "work: 1", **changes})
+    work = mission_work(programs.mission)
+    lay_out_mission(programs.mission, folder / "orbital", {f"work: {work}": "work: 1", **changes})
     text = scenario.yaml().replace(f"duration_s: {DURATION_S}", "duration_s: 14")
     (folder / "orbital" / "scenarios" / "known.yaml").write_text(text)
     rehearse(programs, folder / "orbital", "known", scenario.seed, folder / "flight")

@@ -7,11 +7,13 @@ from collections import Counter
 from pathlib import Path
 
 import problem
-from flights import MISSION_WORK, Call
+from flights import Call, mission_work
 from long_calls import LONG_S, LongCall
 from losses import EXPLANATIONS, Loss
 from record import Range, Record
 from trials import Trial
+
+MISSIONS = Path(__file__).resolve().parents[2] / "missions"
 
 CLASSES = ["hard", "optional", "opportunistic"]
 EXAMPLES = 6
@@ -84,7 +86,7 @@ def shorten(reason: str) -> str:
     return text if len(text) < 100 else text[:97] + "…"
 
 
-def calls_section(records: list[Record], work: int) -> str:
+def calls_section(records: list[Record], work: int, of_mission: int) -> str:
     calls = [call for record in records for call in record.flight.calls]
     looks = [look for record in records for look in record.looks]
     verdicts = Counter(call.verdict for call in calls)
@@ -98,7 +100,7 @@ def calls_section(records: list[Record], work: int) -> str:
     most = max((call.evaluated for call in calls if call.verdict == "solved"), default=0)
     out = (
         f"\n## Planner calls (R61)\n\n{len(calls)} calls with a budget of {work:,} evaluations (the mission's: "
-        f"{MISSION_WORK:,}); a solved one took {most:,} at most. Solvable problems missed: **{len(missed)}**.\n\n"
+        f"{of_mission:,}); a solved one took {most:,} at most. Solvable problems missed: **{len(missed)}**.\n\n"
     )
     out += table(["verdict", "calls", "of these solvable", "undecided"], rows)
     if missed:
@@ -293,7 +295,8 @@ Written by `bench/field_trial/run.py {named}--runs {len(records)} --seed {first}
     bench/field_trial/run.py {named}--runs 1 --seed {first} --work {work} --out FOLDER && ./run FOLDER/{trial.mission} --scenario seed-{first:04d} --seed {first}
 
 """
-    sections = [losses_section(records, f"pictures/{picture.name}"), hard_section(records), calls_section(records, work)]
+    sections = [losses_section(records, f"pictures/{picture.name}"), hard_section(records)]
+    sections.append(calls_section(records, work, mission_work(MISSIONS / trial.mission)))
     sections += [oracle_section(records), makespan_section(records), goals_section(records), ranges_section([flown, *others])]
     sections += [wall_section(records, flown.long)]
     old = target.read_text() if target.exists() else ""

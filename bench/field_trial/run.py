@@ -18,7 +18,7 @@ from pathlib import Path
 
 import report
 from drop_order import broken_drop_order
-from flights import MISSION_WORK, Programs, fly, lay_out_mission
+from flights import Programs, fly, lay_out_mission, mission_work
 from long_calls import repeat_longest
 from losses import losses_of
 from record import Range, Record
@@ -90,7 +90,7 @@ def main() -> int:
     parser.add_argument("--bin", type=Path, default=ROOT / "build/release/bin", help="programs (build/release/bin)")
     parser.add_argument("--jobs", type=int, default=2, help="flights at the same time (2)")
     parser.add_argument("--longer", type=float, default=30, help="seconds for a planner call's second try (30)")
-    parser.add_argument("--work", type=int, default=MISSION_WORK, help="evaluations of a planner call (the mission's)")
+    parser.add_argument("--work", type=int, help="evaluations of a planner call (the mission's)")
     parser.add_argument("--flown", action="store_true", help="take the flights that lie in OUT already, fly what is missing")
     parser.add_argument("--beside", type=Path, nargs="+", default=[], help="OUT folders of other ranges, to compare with")
     arguments = parser.parse_args()
@@ -100,7 +100,9 @@ def main() -> int:
         if not program.exists():
             parser.error(f"{program} is missing; build it: ninja -C build/release {program.name}")
     arguments.out = arguments.out.resolve()
-    changes = {f"work: {MISSION_WORK}": f"work: {arguments.work}"} if arguments.work != MISSION_WORK else {}
+    own_work = mission_work(programs.mission)
+    arguments.work = arguments.work or own_work
+    changes = {f"work: {own_work}": f"work: {arguments.work}"} if arguments.work != own_work else {}
     mission = lay_out_mission(programs.mission, arguments.out / trial.mission, changes)
     programs.constants = trial.constants(programs, arguments.out / "constants")
     draw = trial.drawer(programs.mission)

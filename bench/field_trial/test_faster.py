@@ -42,8 +42,9 @@ class ReadsAFlight(unittest.TestCase):
         rows = [(5_000_000, "trace", f"5000000 command {STEP} 1 action=0 scout.locomotion scout_locomotion TraverseWithSS from=w0 to=w1"),
                 (9_000_000, "trace", f"9000000 ack {STEP} 1 stage=0 scout.locomotion repairing drive: no-go, the wheel says No-Go")]
         motion = {"robot": "scout", "kind": "motion"}
-        (one,) = repairs_of(rows, [{**motion, "time_us": 6_000_000}, {**motion, "time_us": 10_000_000}])
-        self.assertEqual((one.cause, one.at_s, one.used_s), ("no-go", 9, 1))
+        moved = [{**motion, "time_us": at * 1_000_000, "object": to} for at, to in ((6, "w1"), (10, "w0"), (12, "w1"))]
+        (one,) = repairs_of(rows, moved)
+        self.assertEqual((one.cause, one.at_s, one.used_s), ("no-go", 9, 3), "to the drive on, not to the one back")
         self.assertAlmostEqual(one.allowed_s, 5 + 1.5 / 0.0125 + 300 - 9)
 
     def test_repairs_switched_off(self):

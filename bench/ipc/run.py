@@ -58,13 +58,23 @@ def run(arguments, instance):
             record = {
                 "planner": arguments.planner, "domain": instance.domain, "instance": instance.number,
                 "seconds": arguments.seconds, "megabytes": arguments.megabytes, "host": platform.node(),
-                "revision": arguments.revision, "exit": code, "cpu_s": round(cpu, 6), "wall_s": round(wall, 3),
+                "processor": processor(), "revision": arguments.revision, "exit": code, "cpu_s": round(cpu, 6), "wall_s": round(wall, 3),
                 "peak_rss_kb": peak, "message": err.read(2000).decode(errors="replace").strip(),
             }
             if stats.exists():
                 record["stats"] = json.loads(stats.read_text())
         record.update(judge(arguments, instance, plan, code))
         return record
+
+
+def processor():
+    """The processor's name, as the kernel tells it."""
+    try:
+        lines = pathlib.Path("/proc/cpuinfo").read_text().splitlines()
+    except OSError:
+        lines = []
+    names = [line.partition(":")[2].strip() for line in lines if line.startswith("model name")]
+    return names[0] if names else platform.processor() or platform.machine()
 
 
 def values_of(instance):

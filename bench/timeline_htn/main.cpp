@@ -133,7 +133,7 @@ int run() {
     }
     const double slope = std::log(last / first) / std::log(4.0);
     rows["slope_over_goals"] = slope;
-    if (heuristic == Heuristic::blind) kept = kept && slope < 2;
+    kept = kept && slope < 2;
     for (const int waypoints : {4, 10, 25, 50, 100})
       rows["waypoints"].push_back(measure({waypoints, 2, 2, 2}, heuristic).json);
     for (const int rovers : {2, 3, 4}) rows["rovers"].push_back(measure({13, rovers, 2, 0}, heuristic).json);

@@ -138,6 +138,11 @@ class Sweep {
     value_ = seen.value;
   }
 
+  double number_at(Time time) {
+    advance(time);
+    return number();
+  }
+
  private:
   double number() const {
     const double* held = std::get_if<double>(&value_);
@@ -191,24 +196,43 @@ void sweep(const std::vector<Event>& events, const FlexiblePlan& plan, const Val
   if (seen != nullptr) correct();
 }
 
+// A number with which the plan began, reckoned back from what was seen by what had been executed until then. None where that cannot be
+// told, since an activity had assigned a value.
+Value reckoned_back(const std::vector<Event>& events, const ObservedValue& seen) {
+  const double* number = std::get_if<double>(&seen.value);
+  if (number == nullptr) return {};
+  Sweep changes(0.0);
+  for (const Event& event : events) {
+    if (!shown_in(event, seen)) break;
+    if (event.impact->kind == ImpactKind::assign) return {};
+    changes.take(event);
+  }
+  return *number - changes.number_at(seen.sampled);
+}
+
 }  // namespace
 
 std::map<std::string, std::vector<ProjectedChange>> project(const FlexiblePlan& plan,
                                                             const Progress& progress, Time now,
                                                             const std::map<std::string, Value>& initial,
                                                             const ObservedValues& observed) {
-  std::map<std::string, Changes> out;
-  const auto value_at_start = [&](const std::string& timeline) {
-    const auto known = initial.find(timeline);
-    return known == initial.end() ? Value{} : known->second;
+  const auto real = events_of(plan, real_spans(plan, progress, now));
+  const auto seen_of = [&](const std::string& timeline) {
+    const auto seen = observed.find(timeline);
+    return seen == observed.end() ? nullptr : &seen->second;
   };
+  const auto value_at_start = [&](const std::string& timeline) {
+    if (const auto known = initial.find(timeline); known != initial.end()) return known->second;
+    const ObservedValue* seen = seen_of(timeline);
+    if (seen == nullptr) return Value{};
+    const auto events = real.find(timeline);
+    return reckoned_back(events == real.end() ? std::vector<Event>{} : events->second, *seen);
+  };
+  std::map<std::string, Changes> out;
   for (const auto& [timeline, events] : events_of(plan, planned_spans(plan)))
     sweep(events, plan, value_at_start(timeline), nullptr, out[timeline]);
-  for (const auto& [timeline, events] : events_of(plan, real_spans(plan, progress, now))) {
-    const auto seen = observed.find(timeline);
-    sweep(events, plan, value_at_start(timeline), seen == observed.end() ? nullptr : &seen->second,
-          out[timeline]);
-  }
+  for (const auto& [timeline, events] : real)
+    sweep(events, plan, value_at_start(timeline), seen_of(timeline), out[timeline]);
   return out;
 }
 

@@ -47,8 +47,9 @@ struct ProjectedChange {
 /// Returns by timeline the planned changes, then the executed ones, then the projected ones, each in the
 /// order of time. The projected values of a timeline that was observed start at that observation (R76): what
 /// was executed until it was sampled is in it, and stands among the executed changes without an activity;
-/// what runs on (a rate) or comes later acts on it. Other numbers start with their value in `initial`, else
-/// with 0: they are then the change since the plan began, as the planned numbers always are. What failed, was
+/// what runs on (a rate) or comes later acts on it. Planned and executed numbers start with their value in
+/// `initial`, else with what the observation tells of it, reckoned back by what was executed until then, else
+/// with 0: they are then the change since the plan began. What failed, was
 /// skipped or cancelled has no effect at its end. Of activities that exclude each other (decision points) all
 /// that are not skipped count. Only timelines that the plan changes are in the result. The plan must have
 /// passed check().

@@ -141,7 +141,7 @@ Step MethodRun::advance() {
   if (at_.index < at_.calls->size()) return ask();
   if (go_on_) {
     at_ = {&method_->calls, *std::exchange(go_on_, std::nullopt)};
-    return ask();
+    if (at_.index < at_.calls->size()) return ask();
   }
   std::map<std::string, Value> results;
   for (const auto& [name, source] : method_->results) {
@@ -171,7 +171,9 @@ Step MethodRun::fail(const Answer& answer, const Observations& observed) {
     return {{}, ended(answer.error, reason, answer.values), {}};
   ++repaired_[repair->first];
   const auto then = std::ranges::find(method_->calls, repair->second.then, &Call::name);
-  go_on_ = then == method_->calls.end() ? at_.index : static_cast<std::size_t>(then - method_->calls.begin());
+  go_on_ = repair->second.ends            ? method_->calls.size()
+           : then == method_->calls.end() ? at_.index
+                                          : static_cast<std::size_t>(then - method_->calls.begin());
   repair_ = &repair->second;
   at_ = {&repair_->calls, 0};
   error_ = ended(answer.error, reason, answer.values);

@@ -105,8 +105,9 @@ class MethodRun {
   Position at_;
   std::uint32_t number_ = 0;
   const methods::Repair* repair_ = nullptr;  // the last that was begun
-  std::optional<std::size_t> go_on_;         // during a repair: index of the method's call that follows it
-  End error_;                                // that is being repaired
+  // During a repair: index of the method's call that follows it, or their number.
+  std::optional<std::size_t> go_on_;
+  End error_;                                      // that is being repaired
   std::map<std::string, std::uint32_t> repaired_;  // how often, as the method names them
   std::map<std::string, temporal::Value> values_;  // by "call.value"
   double energy_j_ = 0;

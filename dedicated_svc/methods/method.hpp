@@ -98,6 +98,7 @@ struct Shown {
 struct Repair {
   std::vector<Call> calls{};
   std::string then{};         ///< the method's call with which it goes on; empty: the one that failed
+  bool ends = false;          ///< the command is carried out when the repair is; `then` is empty
   std::uint32_t at_most = 1;  ///< how often in one run
   Shown shows{};              ///< the executive's state meanwhile; else that of the method
   /// Numbers that timelines must have now, e.g. energy for it; else the error stands.

@@ -15,6 +15,7 @@ using mission::Entry;
 
 constexpr double kLongestWait = 1e7;  // seconds
 constexpr double kLongestCut = 1000;  // metres
+constexpr char kEnd[] = "end";        // a repair goes on with no call
 
 // What a template may name here: arguments of the command, and calls whose values it has.
 struct Known {
@@ -170,9 +171,14 @@ Repair read_repair(const Entry& entry, const Method& method, Known known, std::s
   if (const auto shows = entry.find("shows")) repair.shows = read_shown(*shows, known);
   repair.calls = read_calls(entry.at("calls"), known, names);
   if (const auto then = entry.find("then")) {
-    repair.then = then->text();
-    if (std::ranges::none_of(method.calls, [&](const Call& call) { return call.name == repair.then; }))
-      then->fail("the method has no call '" + repair.then + "' to go on with");
+    const std::string target = then->text();
+    const bool is_call = std::ranges::find(method.calls, target, &Call::name) != method.calls.end();
+    repair.ends = target == kEnd;
+    if (repair.ends && is_call)
+      then->fail("'end' ends the method, which has a call of that name, too; give the call another name");
+    if (!repair.ends && !is_call)
+      then->fail("the method has no call '" + target + "' to go on with; 'end' ends the method");
+    if (!repair.ends) repair.then = target;
   }
   if (const auto most = entry.find("at_most")) {
     if (most->integer() < 1 || most->integer() > 1000) most->fail("'at_most' must be from 1 to 1000");
@@ -180,6 +186,20 @@ Repair read_repair(const Entry& entry, const Method& method, Known known, std::s
   }
   if (const auto needs = entry.find("needs")) repair.needs = read_ranges(*needs);
   return repair;
+}
+
+// A repair that ends the method leaves out the calls from the one that failed on: no result may come from them.
+void check_brought_before(const Method& method, const std::string& error, const std::string& result,
+                          const Entry& entry) {
+  const auto position = [&](const std::string& name) {
+    return std::ranges::find(method.calls, name.substr(0, name.find('.')), &Call::name) -
+           method.calls.begin();
+  };
+  const bool of_one_call = error.find('.') != std::string::npos;
+  if (of_one_call && position(method.results.at(result)) < position(error)) return;
+  entry.fail("the repair of '" + error +
+             "' ends the method, maybe before a call has brought this; let it go on with " +
+             "a call of the method ('then'), or leave the result out");
 }
 
 Method read_method(const std::string& command, const Entry& entry) {
@@ -222,6 +242,8 @@ Method read_method(const std::string& command, const Entry& entry) {
           text.find('.') == std::string::npos)
         value.fail("a result is one value of one call: \"{call.value}\"");
       method.results[name] = text.substr(1, text.size() - 2);
+      for (const auto& [error, repair] : method.repairs)
+        if (repair.ends) check_brought_before(method, error, name, value);
     });
   return method;
 }

@@ -2,6 +2,7 @@
 
 #include <charconv>
 
+#include "core/pddl/printer.hpp"
 #include "exec_svc/mission/condition_entry.hpp"
 #include "exec_svc/mission/goal_formula.hpp"
 #include "exec_svc/mission/template_text.hpp"
@@ -50,14 +51,21 @@ void write_numbers_out(const GoalKind& kind, std::map<std::string, std::string>&
   }
 }
 
-// The kind's PDDL goal over timelines; empty where they cannot say it.
+// A condition over timelines; what these cannot say, such as quantifiers, is one fact by its own text, as the engine
+// prints it when it says what is out of reach.
+temporal::Condition condition_of(const pddl::Condition& formula) {
+  temporal::Condition out = mission::over_timelines(formula);
+  return out.empty() ? temporal::compare(pddl::print(formula), temporal::ConditionOp::eq, true) : out;
+}
+
+// The kind's PDDL goal over timelines.
 temporal::Condition pddl_goal(const MissionModel& mission, const GoalRequest& goal) {
   const GoalKind* kind = kind_of(mission, goal);
   if (kind == nullptr || !kind->formula) return all_facts(goal_facts(mission, goal));
-  pddl::And all;
+  std::vector<temporal::Condition> parts;
   for (const std::string& fact : goal_facts(mission, goal))
-    all.parts.push_back(mission::read_goal_formula(fact));
-  return mission::over_timelines({std::move(all), {}});
+    parts.push_back(condition_of(mission::read_goal_formula(fact)));
+  return parts.size() == 1 ? parts.front() : temporal::all_of(parts);
 }
 
 ProblemGoal problem_goal(const MissionModel& mission, const GoalRequest& goal) {

@@ -163,10 +163,14 @@ GroundOrders::Ruling GroundOrders::drop(const Order& order) {
       return refused(plan_->name() + " has no activity '" + order.target + "'");
     if (plan_->step_of(order.target).state == ActivityState::succeeded)
       return refused(order.target + " is done");
+    std::set<std::string> all{order.target};
+    for (const auto& [activity, key] : dropped_) all.insert(activity);
+    if (std::string fault = plan_->drop_fault(all); !fault.empty()) return refused(fault);
     dropped_[order.target] = order.key;
     return {OrderStage::accepted};
   }
   if (std::string fault = fault_of_waiting(order.target); !fault.empty()) return refused(fault);
+  if (std::string fault = plan_->drop_fault({order.target}); !fault.empty()) return refused(fault);
   plan_->drop(order.target, "dropped by the ground");
   return {};
 }

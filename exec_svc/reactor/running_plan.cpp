@@ -185,10 +185,19 @@ void RunningPlan::watch(const temporal::FlexiblePlan& plan, bool launched_again)
   conflict_monitor_ = std::move(conflicts);
 }
 
+void RunningPlan::drop(const std::string& activity, const std::string& reason) {
+  for (const std::string& left : left_out(executive_.plan(), executive_.steps(), {activity}))
+    executive_.drop(left, reason);
+}
+
+std::string RunningPlan::drop_fault(const std::set<std::string>& dropped) const {
+  return reactor::drop_fault(executive_.plan(), executive_.steps(), dropped);
+}
+
 std::string RunningPlan::relaunch(Time now, const std::set<std::string>& dropped) {
   temporal::FlexiblePlan plan = executive_.plan();
   const std::vector<StepStatus> steps = executive_.steps();
-  const std::set<std::string> without = left_out(steps, dropped);
+  const std::set<std::string> without = left_out(plan, steps, dropped);
   if (std::string fault = relaunch_fault(plan, steps, without, now); !fault.empty()) return fault;
   plan.version = ++version_;
   executive_.load_again(plan, now);

@@ -38,8 +38,10 @@ class RunningPlan {
   const std::vector<executive::AnswerResult>& answer_results() const { return answer_results_; }
   /// What the ground lets the executive do from now on, whatever plan runs.
   void permit(executive::Permissions permissions) { executive_.permit(std::move(permissions)); }
-  /// Leaves an activity out that has not begun.
-  void drop(const std::string& activity, const std::string& reason) { executive_.drop(activity, reason); }
+  /// Leaves an activity out that has not begun, with what left_out() (relaunch.hpp) says.
+  void drop(const std::string& activity, const std::string& reason);
+  /// Why these cannot be left out (relaunch.hpp); empty: they can.
+  std::string drop_fault(const std::set<std::string>& dropped) const;
   /// Loads the plan that was stopped once more, as the next version, and runs what is left of it without
   /// these activities. Returns why not; nothing has changed then.
   std::string relaunch(temporal::Time now, const std::set<std::string>& dropped);

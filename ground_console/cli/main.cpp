@@ -53,7 +53,7 @@ struct Line {
 cli::MissionWords words_of(const Line& line) {
   if (!line.mission.empty())
     return cli::read_mission_words(roci::services::process::mission_folder(line.mission));
-  const auto run = lib::local_run(line.connection);
+  const auto run = lib::local_run(line.connection, line.launcher);
   if (!run || run->mission.empty()) return {};
   try {
     return cli::read_mission_words(run->mission);
@@ -276,7 +276,7 @@ int main(int argc, char** argv) {
   add_network_verbs(app, line);
   add_outlook_verbs(app, line);
   add_verb(app, line, "status", "Mission, goals, services, newest values",
-           [](lib::Client& client, const Line& l) { return cli::show_status(client, l.json); });
+           [](lib::Client& client, const Line& l) { return cli::show_status(client, words_of(l), l.json); });
   add_verb(app, line, "plan", "The running plan and the state of each activity",
            [](lib::Client& client, const Line& l) { return cli::show_plan(client, l.activity, l.json); })
       ->add_option("--why", line.activity,
@@ -329,9 +329,11 @@ int main(int argc, char** argv) {
       app, line, "events", "What happens, as it happens",
       [](lib::Client& client, const Line& l) { return cli::follow_events(client, l.count, l.json); });
   events->add_option("--count", line.count, "End after so many events");
-  CLI::App* watching = add_verb(
-      app, line, "watch", "Live view of the mission in the terminal; waits for one to run",
-      [](lib::Client& client, const Line& l) { return cli::watch::watch(client, l.launcher != 0, l.json); });
+  CLI::App* watching =
+      add_verb(app, line, "watch", "Live view of the mission in the terminal; waits for one to run",
+               [](lib::Client& client, const Line& l) {
+                 return cli::watch::watch(client, words_of(l), l.launcher != 0, l.json);
+               });
   watching->preparse_callback([&line](std::size_t) { line.waits = true; });
   events->add_option("--launcher", line.launcher, "Join the run of this roci-launch, by its process id");
   watching->add_option("--launcher", line.launcher, "Join the run of this roci-launch, by its process id");

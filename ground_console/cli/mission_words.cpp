@@ -1,9 +1,14 @@
 #include "ground_console/cli/mission_words.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "core/mission/mission_file.hpp"
 #include "ground_console/cli/report.hpp"
+#include "ground_console/lib/mission_view.hpp"
 
 namespace roci::console::cli {
 namespace {
@@ -34,6 +39,18 @@ std::string MissionWords::unit_of(const std::string& timeline) const {
   for (const auto& [pattern, unit] : units)
     if (pattern.ends_with('*') && timeline.starts_with(pattern.substr(0, pattern.size() - 1))) return unit;
   return "";
+}
+
+std::string amount_text(double amount, const std::string& unit) {
+  if (unit.empty()) return lib::value_text(amount);
+  constexpr std::array kWithPrefix{"J", "W", "Wh", "B", "b"};
+  if (std::ranges::find(kWithPrefix, unit) == kWithPrefix.end()) return lib::value_text(amount) + " " + unit;
+  constexpr std::array kPrefixes{"", "k", "M", "G"};
+  std::size_t prefix = 0;
+  for (; std::abs(amount) >= 999.5 && prefix + 1 < kPrefixes.size(); ++prefix) amount /= 1000;
+  std::array<char, 32> digits{};
+  std::snprintf(digits.data(), digits.size(), std::abs(amount) >= 1000 ? "%.0f" : "%.3g", amount);
+  return std::string(digits.data()) + " " + kPrefixes[prefix] + unit;
 }
 
 MissionWords read_mission_words(const std::filesystem::path& folder_or_file) {

@@ -26,6 +26,9 @@ struct MissionWords {
   std::string unit_of(const std::string& timeline) const;
 };
 
+/// "755 kJ", "1.25 MJ": three digits and a prefix for J, W, Wh, B and b, "12.5 m" and "3" for all else.
+std::string amount_text(double amount, const std::string& unit);
+
 /// Reads mission.yaml of that folder. Throws mission::FileError.
 MissionWords read_mission_words(const std::filesystem::path& folder_or_file);
 

@@ -199,7 +199,7 @@ std::string event_line(const v1::Event& event) {
                    (plain ? "" : std::string(lib::name_of(event.severity_level())) + ": ") + event.text());
 }
 
-std::string status_text(const lib::MissionView& view) {
+std::string status_text(const lib::MissionView& view, const MissionWords& words) {
   std::string out;
   if (const v1::MissionStatus* mission = view.mission()) {
     const bool one = view.executives().size() == 1;
@@ -219,7 +219,7 @@ std::string status_text(const lib::MissionView& view) {
   if (const v1::LeaseMessage* leader = view.leader()) out += "executive: " + lib::pair_text(*leader) + "\n";
   out += "\nGoals\n";
   for (const auto& [key, status] : view.goals()) out += "  " + goal_line(status) + "\n";
-  out += robots_text(view);
+  out += robots_text(view, words);
   out += "\nServices\n";
   std::size_t width = 14;
   for (const auto& [name, heartbeat] : view.services()) width = std::max(width, name.size() + 2);

@@ -4,6 +4,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
+#include "ground_console/cli/mission_words.hpp"
 #include "ground_console/lib/mission_view.hpp"
 
 namespace roci::console::cli {
@@ -26,6 +27,6 @@ std::string details_of(const v1::GoalStatus& status);  ///< empty if there are n
 
 std::string goal_line(const v1::GoalStatus& status);
 std::string event_line(const v1::Event& event);
-std::string status_text(const lib::MissionView& view);
+std::string status_text(const lib::MissionView& view, const MissionWords& words = {});
 
 }  // namespace roci::console::cli

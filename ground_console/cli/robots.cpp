@@ -143,7 +143,7 @@ std::vector<std::pair<std::string, std::string>> states_of_the_team(const lib::M
   return out;
 }
 
-std::string where_text(const Robot& robot) {
+std::string where_text(const Robot& robot, const MissionWords& words) {
   std::vector<std::string> parts;
   if (robot.place) {
     std::string text = "x " + one_decimal(robot.place->x_m) + " y " + one_decimal(robot.place->y_m) + " m";
@@ -151,7 +151,8 @@ std::string where_text(const Robot& robot) {
       text += ", heading " + std::to_string(std::lround(*robot.heading_rad * 180 / M_PI)) + "°";
     parts.push_back(text);
   }
-  if (robot.battery) parts.push_back("battery " + lib::value_text(*robot.battery));
+  if (robot.battery)
+    parts.push_back("battery " + amount_text(*robot.battery, words.unit_of(robot.name + ".battery")));
   return joined(parts, "   ");
 }
 
@@ -258,14 +259,14 @@ json repairs_json(const lib::MissionView& view) {
   return out;
 }
 
-std::string robots_text(const lib::MissionView& view) {
+std::string robots_text(const lib::MissionView& view, const MissionWords& words) {
   std::string out;
   const std::vector<Robot> robots = robots_of(view);
   if (!robots.empty()) out += "\nRobots\n";
   for (const Robot& robot : robots) {
     std::vector<std::string> head{robot.name};
     if (!robot.doing.empty()) head.push_back(robot.doing);
-    if (const std::string where = where_text(robot); !where.empty()) head.push_back(where);
+    if (const std::string where = where_text(robot, words); !where.empty()) head.push_back(where);
     out += "  " + printable(joined(head, "   ")) + "\n";
     for (const auto& [timeline, value] : states_by_family(view, robot))
       out += "    " + printable(padded(timeline, 18) + value) + "\n";

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "ground_console/cli/mission_words.hpp"
 #include "ground_console/lib/mission_view.hpp"
 
 namespace roci::console::cli {
@@ -34,8 +35,8 @@ std::vector<Robot> robots_of(const lib::MissionView& view);
 std::vector<std::pair<std::string, std::string>> states_of_the_team(const lib::MissionView& view,
                                                                     const std::vector<Robot>& robots);
 
-/// "x 6.2 y 15.0 m, heading 90°   battery 350000", as far as it is known.
-std::string where_text(const Robot& robot);
+/// "x 6.2 y 15.0 m, heading 90°   battery 350 kJ", as far as it is known.
+std::string where_text(const Robot& robot, const MissionWords& words);
 
 /// "version 4: 2 obstacles (1 rock, 1 soil of scout), told version 3 at 00:02:00, has version 2 of scout.path".
 std::string map_text(const v1::KnownMap& map);
@@ -57,6 +58,6 @@ nlohmann::json robots_json(const lib::MissionView& view);
 nlohmann::json repairs_json(const lib::MissionView& view);
 
 /// Lines on robots, open decisions and repairs; without a robot and without the others, empty.
-std::string robots_text(const lib::MissionView& view);
+std::string robots_text(const lib::MissionView& view, const MissionWords& words = {});
 
 }  // namespace roci::console::cli

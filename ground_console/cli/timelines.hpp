@@ -14,8 +14,8 @@ namespace roci::console::cli {
 using Timelines = std::map<std::string, std::vector<temporal::ProjectedChange>>;
 
 /// Of the running plan and of what is observed (the newest value of each, as executed by nobody); with names:
-/// of these alone. What is projected starts at the newest observation of its timeline (R76); a number that
-/// nobody observed, and every planned one, is its change since the plan began. Throws WireError for a plan
+/// of these alone. What is projected starts at the newest observation of its timeline (R76), and
+/// what was planned and executed is reckoned back from it; a number that nobody observed is its change since the plan began. Throws WireError for a plan
 /// that no executive sends.
 Timelines timelines_of(const lib::MissionView& view, const std::vector<std::string>& names);
 

@@ -145,10 +145,10 @@ int list_goals(lib::Client& client, bool why, bool as_json) {
   return kDone;
 }
 
-int show_status(lib::Client& client, bool as_json) {
+int show_status(lib::Client& client, const MissionWords& words, bool as_json) {
   if (!client.wait_for_mission(kAnswerLimit)) return no_mission(client.view());
   client.settle();
-  std::cout << (as_json ? json_text(status_json(client.view())) + "\n" : status_text(client.view()));
+  std::cout << (as_json ? json_text(status_json(client.view())) + "\n" : status_text(client.view(), words));
   return kDone;
 }
 

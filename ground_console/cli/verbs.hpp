@@ -44,7 +44,7 @@ inline constexpr std::chrono::milliseconds kAnswerLimit{15000};
 int add_goal(lib::Client& client, const GoalArguments& arguments, bool json);
 int cancel_goal(lib::Client& client, const std::string& issuer, const std::string& id, bool json);
 int list_goals(lib::Client& client, bool why, bool json);
-int show_status(lib::Client& client, bool json);
+int show_status(lib::Client& client, const MissionWords& words, bool json);
 /// The running plan; with `why`, the id or the name of an activity, the values that it stands on.
 /// A plan that has ended, as it was executed: the one of this version, or for 0 the one that ended last.
 int show_executed(lib::Client& client, std::uint32_t version, bool as_json);

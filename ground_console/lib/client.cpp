@@ -83,8 +83,11 @@ services::process::Connection choose_run(const services::process::ConnectionFlag
   return connection;
 }
 
-std::optional<services::process::RunRecord> local_run(const services::process::ConnectionFlags& flags) {
+std::optional<services::process::RunRecord> local_run(const services::process::ConnectionFlags& flags,
+                                                      std::int64_t launcher) {
   auto runs = services::process::find_runs(services::process::runtime_folder());
+  if (launcher != 0)
+    std::erase_if(runs, [&](const services::process::RunRecord& run) { return run.pid != launcher; });
   const auto domain = flags.domain;
   if (domain)
     std::erase_if(runs, [&](const services::process::RunRecord& run) { return run.domain != *domain; });

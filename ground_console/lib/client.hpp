@@ -30,9 +30,10 @@ class NoRun : public std::runtime_error {
 services::process::Connection choose_run(const services::process::ConnectionFlags& flags,
                                          std::int64_t launcher = 0);
 
-/// The run that the command line names or that is the only one here; nothing if there is none or a choice. Its mission
-/// folder stands on this machine.
-std::optional<services::process::RunRecord> local_run(const services::process::ConnectionFlags& flags);
+/// The run that the command line names or that is the only one here; nothing if there is none or a choice. With `launcher`, the
+/// process id of a roci-launch, that of its own. Its mission folder stands on this machine.
+std::optional<services::process::RunRecord> local_run(const services::process::ConnectionFlags& flags,
+                                                      std::int64_t launcher = 0);
 
 /// Waits until the launcher with this process id has published its run. False: the process has ended.
 bool wait_for_launcher(std::int64_t pid);

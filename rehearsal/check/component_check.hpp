@@ -5,8 +5,8 @@
 
 namespace roci::rehearsal::check {
 
-/// Complains of owners that are no services, of timelines that nobody tells of, of states that a component is
-/// never in, of those that it can be in and the mission does not know, and of facts with more positions than
+/// Complains of owners that are no services, of timelines that nobody tells of, of states that a component can be
+/// in and the mission does not know, of those beside them that it is never in, and of facts with more positions than
 /// the state has arguments.
 void check_components(const CheckedMission& mission, const CheckedExecutive& executive);
 

@@ -214,6 +214,13 @@ std::string why_not_tried(const CheckedMission& mission, const MissionModel& mod
   if (!model.domain) return "engine '" + model.planner.engine + "' reads no PDDL";
   if (!planner::engines().contains(model.planner.engine))
     return "engine '" + model.planner.engine + "' is not linked here";
+  for (const exec::mission::Component& component : model.components) {
+    const auto rest = std::ranges::find(component.states, false, &exec::mission::StateModel::active);
+    if (component.owner == mission.world.service || rest == component.states.end()) continue;
+    if (std::ranges::any_of(rest->facts,
+                            [](const std::string& fact) { return fact.find('?') != std::string::npos; }))
+      return "where '" + component.name + "' begins, '" + component.owner + "' alone says";
+  }
   return "";
 }
 

@@ -44,7 +44,7 @@ struct DryPlans {
 /// windows do not count. A component that is not simulated is taken to be in its first inactive state. A
 /// kind of which none can be planned is a finding at its entry in the mission file, in the words of the mission: the goal with its
 /// arguments, and which owner of a function said what. Goal kinds of missions whose
-/// engine or world is not linked here are not tried.
+/// engine or world is not linked here, or where such a component's first state has arguments, are not tried.
 DryPlans dry_plan(const CheckedMission& mission, const CheckedExecutive& executive, AskedOwners& owners,
                   mission::Findings& findings);
 

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <fstream>
 
@@ -43,6 +45,27 @@ TEST(Check, ASoundMissionEndsWithZero) {
   EXPECT_EQ(ended.exit_code, 0);
   EXPECT_THAT(ended.output, EndsWith("well: 2 scenarios read, 1 goal kind planned, nothing found\n"));
 }
+
+// ./run asks roci-check first, and flies nothing in which it finds an error.
+class Shipped : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(Shipped, MissionsHaveNothingToFind) {
+  const Ended ended = run(std::string("roci-check ") + ROCI_SOURCE_DIR + "/" + GetParam() + " 2>&1");
+  EXPECT_EQ(ended.exit_code, 0) << ended.output;
+  EXPECT_THAT(ended.output, HasSubstr("nothing found\n"));
+}
+
+INSTANTIATE_TEST_SUITE_P(Missions, Shipped,
+                         ::testing::Values("missions/planetary", "missions/orbital", "missions/europa",
+                                           "missions/europa-bsm1", "missions/europa-autonomous",
+                                           "missions/faster", "tests/missions/lander",
+                                           "tests/missions/convoy"),
+                         [](const auto& tested) {
+                           std::string name = tested.param;
+                           std::ranges::replace_if(
+                               name, [](unsigned char c) { return std::isalnum(c) == 0; }, '_');
+                           return name;
+                         });
 
 TEST_F(BadWell, EndsWithOneAndAllFindings) {
   const Ended ended = run("cd " + folder.string() + " && roci-check . 2>&1");

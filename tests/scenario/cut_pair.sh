@@ -11,26 +11,12 @@
 # led (how often each executive began to lead).
 set -uo pipefail
 bin=$1 mission=$2 dds=$3 domain=$4 cut=$5 clock=$6 speed=$7
-net=roci-net-$$
 folder=$(mktemp -d)
 declare -A address=([robot]=10.79.0.1 [first]=10.79.0.2 [second]=10.79.0.3)
-trap 'kill $(jobs -p) 2>/dev/null; wait; for host in net robot first second; do ip netns del roci-$host-$$; done; rm -rf "$folder"' EXIT
+. "$(dirname "$0")/hosts.sh"
+trap 'remove_hosts; rm -rf "$folder"' EXIT
+make_hosts
 
-ip netns add $net 2>/dev/null || exit 77
-set -e
-ip -n $net link add name switch type bridge
-ip -n $net link set switch up
-for host in robot first second; do
-  ip netns add roci-$host-$$
-  ip link add name eth netns roci-$host-$$ type veth peer name $host netns $net
-  ip -n roci-$host-$$ addr add ${address[$host]}/24 dev eth
-  ip -n roci-$host-$$ link set lo up
-  ip -n roci-$host-$$ link set eth up
-  ip -n $net link set $host master switch up
-done
-set +e
-
-network=(--domain "$domain" --peers "${address[robot]},${address[first]},${address[second]}")
 on() {  # host command…
   ip netns exec roci-$1-$$ timeout 100 "${@:2}"
 }

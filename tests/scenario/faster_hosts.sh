@@ -10,30 +10,16 @@
 # time in s, as the ground is told), then ground, primary and scout (their launchers' summaries).
 set -uo pipefail
 bin=$1 mission=$2 dds=$3 domain=$4 folder=$5 clock=$6 speed=$7 cut_at=${8:-} cut_s=${9:-0}
-net=roci-net-$$
 declare -A address=([ground]=10.81.0.1 [primary]=10.81.0.2 [scout]=10.81.0.3)
 declare -A services=(
   [ground]=sim_svc,planner_svc
   [primary]=exec_svc,communications,primary.path,primary.path_planning,primary.locomotion
   [scout]=scout.path,scout.path_planning,scout.locomotion
 )
-trap 'kill $(jobs -p) 2>/dev/null; wait; for host in net ground primary scout; do ip netns del roci-$host-$$; done' EXIT
+. "$(dirname "$0")/hosts.sh"
+trap 'remove_hosts' EXIT
+make_hosts
 
-ip netns add $net 2>/dev/null || exit 77
-set -e
-ip -n $net link add name switch type bridge
-ip -n $net link set switch up
-for host in ground primary scout; do
-  ip netns add roci-$host-$$
-  ip link add name eth netns roci-$host-$$ type veth peer name $host netns $net
-  ip -n roci-$host-$$ addr add ${address[$host]}/24 dev eth
-  ip -n roci-$host-$$ link set lo up
-  ip -n roci-$host-$$ link set eth up
-  ip -n $net link set $host master switch up
-done
-set +e
-
-network=(--domain "$domain" --peers "${address[ground]},${address[primary]},${address[scout]}")
 vendor() {  # host
   [[ $dds == mixed && $1 != primary ]] && echo cyclonedds || echo "${dds/mixed/fastdds}"
 }
@@ -50,7 +36,9 @@ roci() {  # arguments…: on the ground's host
 }
 part() { for port in primary scout; do bridge -n $net link set dev $port isolated $1; done; }  # on|off
 now() { roci status | tail -n 1 | grep -o '"time_s":[0-9]*' | head -n 1 | cut -d: -f2; }        # mission time
-driving() { grep -qs "\"commander\":\"scout.locomotion\".*\"object\":\"$cut_at\"" "$folder/ground/effects.jsonl"; }
+until_driving() {  # or the ground's launcher has ended
+  tail --pid=$ground -n +1 -F "$folder/ground/effects.jsonl" 2>/dev/null | grep -q -m1 "\"commander\":\"scout.locomotion\".*\"object\":\"$cut_at\""
+}
 flying() { kill -0 $ground 2>/dev/null; }
 
 if [[ $cut_at == refused ]]; then
@@ -70,7 +58,7 @@ printf 'heard\t%s\t%s\n' $? "$(tail -n 1 "$folder/heard")"
 if [[ $cut_at == refused ]]; then
   refused second ground scout.locomotion "$bin"
 elif [[ -n $cut_at ]]; then
-  while flying && ! driving; do sleep 0.1; done
+  until_driving
   part on
   begun=$(now)
   printf 'cut\t0\t%s\n' "${begun:-null}"
@@ -78,11 +66,10 @@ elif [[ -n $cut_at ]]; then
   part off
   printf 'healed\t0\t%s\n' "${time:-null}"
 fi
-if [[ $clock == live ]]; then  # whoever lives on does not end with the world
-  while flying; do sleep 0.1; done
-  kill -TERM $primary $scout
-fi
+wait $ground
+code=$?
+[[ $clock == live ]] && kill -TERM $primary $scout  # whoever lives on does not end with the world
 for host in ground primary scout; do
-  wait ${!host}
-  printf '%s\t%s\t%s\n' $host $? "$(tail -n 1 "$folder/$host.summary")"
+  [[ $host == ground ]] || { wait ${!host}; code=$?; }
+  printf '%s\t%s\t%s\n' $host $code "$(tail -n 1 "$folder/$host.summary")"
 done

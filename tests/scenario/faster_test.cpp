@@ -106,6 +106,15 @@ TEST_F(FasterTrial, AStoppedTrialEndsSafe) {
   EXPECT_EQ(deeds("downlink").size(), 0U);
 }
 
+// R149: what was dropped is not done, and does not count as done; the next plan does it.
+TEST_F(FasterTrial, WhatTheGroundDropsIsNotDoneByTheRelaunch) {
+  flown("trial_relaunched");
+  EXPECT_THAT(trace(), HasSubstr("plan faster 3 origin"));
+  EXPECT_THAT(trace(), Not(HasSubstr("command p1.194-antenna")));
+  EXPECT_THAT(deeds("downlink"), ::testing::ElementsAre("primary traverse_done"));
+  EXPECT_THAT(deeds("motion").back(), "primary w9");
+}
+
 // Traverse-PR, and BringBack-SR by each of its triggers (R137).
 TEST_F(FasterTrial, ALostScoutIsLeftBehindAndThePrimaryArrivesAlone) {
   flown("scout_lost");
@@ -138,10 +147,10 @@ TEST_F(FasterTrial, WithoutAPathTheGroundIsTold) {
   EXPECT_THAT(deeds("motion").back(), "primary w0");
 }
 
-constexpr const char* kScenarios[] = {"trial",         "trial_stopped",   "fixed_times", "marker_not_seen",
-                                      "scout_no_path", "primary_blocked", "scout_lost",  "no_path",
-                                      "goal_change",   "repair_overrun",  "radio_loss",  "radio_cut",
-                                      "opportunity"};
+constexpr const char* kScenarios[] = {"nominal",     "trial",           "trial_stopped", "trial_relaunched",
+                                      "fixed_times", "marker_not_seen", "scout_no_path", "primary_blocked",
+                                      "scout_lost",  "no_path",         "goal_change",   "repair_overrun",
+                                      "radio_loss",  "radio_cut",       "opportunity",   "opportunity_alone"};
 #ifdef ROCI_ALL_TRANSPORTS
 constexpr const char* kTransports[] = {"inproc", "fastdds", "cyclonedds", "mixed"};
 #else

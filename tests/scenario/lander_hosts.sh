@@ -6,26 +6,12 @@
 # Prints "step<TAB>exit code<TAB>output" for the steps heard, upload, status, lander (its launcher's summary) and planner.
 set -uo pipefail
 bin=$1 mission=$2 dds=$3 domain=$4 scenario=$5 speed=$6 network_file=${7:-}
-net=roci-net-$$
 folder=$(mktemp -d)
 declare -A address=([lander]=10.80.0.1 [planner]=10.80.0.2 [ground]=10.80.0.3)
-trap 'kill $(jobs -p) 2>/dev/null; wait; for host in net lander planner ground; do ip netns del roci-$host-$$; done; rm -rf "$folder"' EXIT
+. "$(dirname "$0")/hosts.sh"
+trap 'remove_hosts; rm -rf "$folder"' EXIT
+make_hosts
 
-ip netns add $net 2>/dev/null || exit 77
-set -e
-ip -n $net link add name switch type bridge
-ip -n $net link set switch up
-for host in lander planner ground; do
-  ip netns add roci-$host-$$
-  ip link add name eth netns roci-$host-$$ type veth peer name $host netns $net
-  ip -n roci-$host-$$ addr add ${address[$host]}/24 dev eth
-  ip -n roci-$host-$$ link set lo up
-  ip -n roci-$host-$$ link set eth up
-  ip -n $net link set $host master switch up
-done
-set +e
-
-network=(--domain "$domain" --peers "${address[lander]},${address[planner]},${address[ground]}")
 vendor() {  # host
   [[ $dds == mixed && $1 != lander ]] && echo cyclonedds || echo "${dds/mixed/fastdds}"
 }

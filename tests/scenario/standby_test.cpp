@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <regex>
 #include <set>
 #include <sstream>
 
@@ -31,11 +32,12 @@ struct Record {
   }
 };
 
-Record fly_and_read(const std::string& dds, const std::string& crash, const std::string& more) {
+Record fly_and_read(const std::string& dds, const std::string& crash, const std::string& more,
+                    const std::string& mission = "planetary") {
   const fs::path folder = fs::temp_directory_path() / ("roci_standby_" + std::to_string(::getpid()));
   fs::remove_all(folder);
   const Ended ended =
-      run("ROCI_CRASH=" + crash + " roci-launch " ROCI_SOURCE_DIR "/missions/planetary --dds " + dds +
+      run("ROCI_CRASH=" + crash + " roci-launch " ROCI_SOURCE_DIR "/missions/" + mission + " --dds " + dds +
           " --speed max --headless --json --run-folder " + folder.string() + more);
   Record out;
   out.exit_code = ended.exit_code;
@@ -90,6 +92,46 @@ TEST_P(Standby, TakesOverAndGoesOnWithTheRunningPlan) {
 
 INSTANTIATE_TEST_SUITE_P(Transports, Standby, ::testing::Values("fastdds", "cyclonedds", "mixed"),
                          [](const auto& test) { return std::string(test.param); });
+
+// The other engines' plans, with their levels, decisions and versions, are taken over likewise.
+struct Flown {
+  const char* name;
+  const char* mission;
+  const char* options;
+  const char* crash;
+};
+
+// A dedicated executive commands in the name of what commanded it: "exec_svc/2/p1.3-…".
+std::map<std::string, int> without_epochs(const std::map<std::string, int>& begun) {
+  std::map<std::string, int> out;
+  for (const auto& [key, count] : begun)
+    out[std::regex_replace(key, std::regex("^exec_svc/[0-9]+/"), "")] += count;
+  return out;
+}
+
+class OtherEngines : public ::testing::TestWithParam<Flown> {};
+
+TEST_P(OtherEngines, ATakeOverGoesOnWithTheRunningPlan) {
+  const auto& [name, mission, options, crash] = GetParam();
+  const Record undisturbed = fly_and_read("fastdds", "", options, mission);
+  ASSERT_EQ(undisturbed.summary.value("result", ""), "achieved");
+  const Record flight = fly_and_read("fastdds", crash, std::string(options) + " --standby", mission);
+  EXPECT_EQ(flight.exit_code, 0);
+  EXPECT_EQ(flight.summary.value("result", ""), "achieved");
+  EXPECT_GE(flight.summary.value("epoch", 0), 2) << "it did take over";
+  EXPECT_EQ(flight.summary["expected"].value("fault", "no report"), "");
+  EXPECT_EQ(flight.count("journal.diverged"), 0);
+  EXPECT_EQ(flight.commanded, undisturbed.commanded);
+  EXPECT_EQ(without_epochs(flight.begun), without_epochs(undisturbed.begun));
+  EXPECT_EQ(flight.replayed.value("same", false), true) << flight.replayed;
+}
+
+INSTANTIATE_TEST_SUITE_P(Engines, OtherEngines,
+                         ::testing::Values(Flown{"timelines", "faster", " --scenario trial", "after-send:60"},
+                                           Flown{"timelines_between_commands", "faster", " --scenario trial",
+                                                 "during-send:9"},
+                                           Flown{"task_network", "europa-bsm1", "", "after-send:40"}),
+                         [](const auto& test) { return std::string(test.param.name); });
 
 }  // namespace
 }  // namespace roci::scenario

@@ -95,7 +95,7 @@ const std::vector<Transports> kTransports{kInproc, kCyclone};
 class TwoRoversInTheYard : public testing::TestWithParam<Transports> {};
 
 TEST_P(TwoRoversInTheYard, TheScoutsMapKeepsThePrimaryOutOfTheTrap) {
-  Yard yard("nominal", GetParam().vendors, ScoutFirst{});
+  Yard yard("yard", GetParam().vendors, ScoutFirst{});
   yard.run();
   const auto& words = yard.words();
   ASSERT_GE(words.size(), 4U);
@@ -112,13 +112,13 @@ TEST_P(TwoRoversInTheYard, TheScoutsMapKeepsThePrimaryOutOfTheTrap) {
   EXPECT_THAT(yard.events(), Contains(HasSubstr("primary.path map.patch_taken")));
   EXPECT_THAT(yard.events(), Contains(HasSubstr("sim_svc soil.no_go scout says No-Go for primary")));
 
-  Yard again("nominal", kInproc.vendors, ScoutFirst{});
+  Yard again("yard", kInproc.vendors, ScoutFirst{});
   again.run();
   EXPECT_EQ(yard.trace(), again.trace()) << "one seed, one trace, whatever carries it";
 }
 
 TEST_P(TwoRoversInTheYard, WithoutThePatchThePrimaryIsDugIn) {
-  Yard yard("nominal", GetParam().vendors, without_a_word);
+  Yard yard("yard", GetParam().vendors, without_a_word);
   yard.run();
   const YardWord& primary = yard.words().back();
   EXPECT_EQ(primary.code, "bogged-down");
@@ -150,7 +150,7 @@ TEST_P(TwoRoversInTheYard, TheScoutDrivesThePrimarysWayAndItsMapIsMerged) {
         return std::nullopt;
     }
   };
-  Yard yard("nominal", GetParam().vendors, script);
+  Yard yard("yard", GetParam().vendors, script);
   yard.run();
   const auto& words = yard.words();
   ASSERT_EQ(words.size(), 8U);
@@ -165,7 +165,7 @@ TEST_P(TwoRoversInTheYard, TheScoutDrivesThePrimarysWayAndItsMapIsMerged) {
   EXPECT_EQ(words[7].code, "bad-arguments");
   EXPECT_THAT(words[7].reason, HasSubstr("point 2 (99,15) lies off the map"));
 
-  Yard again("nominal", kInproc.vendors, script);
+  Yard again("yard", kInproc.vendors, script);
   again.run();
   EXPECT_EQ(yard.trace(), again.trace()) << "one seed, one trace, whatever carries it";
 }
@@ -176,7 +176,7 @@ INSTANTIATE_TEST_SUITE_P(Transports, TwoRoversInTheYard, testing::ValuesIn(kTran
 #ifndef ROCI_ALL_TRANSPORTS
 
 TEST(YardSenses, ThePrimarySeesTheScoutBeforeItAndNotBesideIt) {
-  Yard yard("nominal", kInproc.vendors, [](const std::vector<YardWord>& words) -> std::optional<YardCommand> {
+  Yard yard("yard", kInproc.vendors, [](const std::vector<YardWord>& words) -> std::optional<YardCommand> {
     switch (words.size()) {
       case 0:
         return localise();
@@ -205,7 +205,7 @@ TEST(YardSenses, ThePrimarySeesTheScoutBeforeItAndNotBesideIt) {
 
 #endif
 
-sim::world::Ground yard_ground(const std::string& scenario = "nominal", std::uint64_t seed = 1) {
+sim::world::Ground yard_ground(const std::string& scenario = "yard", std::uint64_t seed = 1) {
   return true_ground(ROCI_SOURCE_DIR "/missions/faster", scenario, seed);
 }
 

@@ -27,7 +27,7 @@ TEST_P(YardViews, EachRoverHasItsOwnMapUntilItIsTold) {
   const std::vector<std::string> vendors =
       vendor == "mixed" ? std::vector<std::string>{"fastdds", "cyclonedds", "fastdds", "cyclonedds"}
                         : std::vector<std::string>(4, vendor);
-  Yard yard("nominal", vendors, [&](const std::vector<YardWord>& words) -> std::optional<YardCommand> {
+  Yard yard("yard", vendors, [&](const std::vector<YardWord>& words) -> std::optional<YardCommand> {
     if (words.empty()) return drive("scout", 21.5, 15);
     before = words.size() == 1 ? console::cli::robots_json(view) : before;
     if (words.size() == 1) return tell("scout");

@@ -73,10 +73,75 @@ void take_plan(std::string_view rest, Course& course) {
   if (origin && course.plans.size() < kChanges) course.plans.emplace_back(*origin, version);
 }
 
+// States of levels above the commands, which nobody observes: activities that nobody was commanded. They hold while they run; of several that run on
+// one timeline the one that began last is shown.
+class Levels {
+ public:
+  // "ACTIVITY ATTEMPT action=…".
+  void take_command(std::string_view rest) {
+    rest = rest.substr(0, rest.find(" action="));
+    commanded_.emplace(rest.substr(0, rest.rfind(' ')));
+  }
+
+  // "ACTIVITY STATE [EARLIEST,LATEST] CAUSE"; the activity is named PLAN-TIMELINE.VALUE, and may have blanks in it.
+  void take_step(std::int64_t at, std::string_view rest, Course& course) {
+    rest = rest.substr(0, rest.find(" ["));
+    const std::size_t blank = rest.rfind(' '), dash = rest.find('-'), open = rest.find('(');
+    if (blank == std::string_view::npos || dash == std::string_view::npos) return;
+    const std::string activity(rest.substr(0, blank));
+    const std::string name = activity.substr(dash + 1);
+    const std::size_t dot =
+        name.substr(0, open == std::string_view::npos ? open : open - dash - 1).rfind('.');
+    const auto state = integer_of(rest.substr(blank + 1));
+    if (!state || dot == std::string::npos || commanded_.contains(activity)) return;
+    std::vector<Running>& running = running_[name.substr(0, dot)];
+    const auto found = std::ranges::find(running, activity, &Running::activity);
+    if (*state == kRunning && found == running.end()) {
+      running.push_back({activity, name.substr(dot + 1), at});
+    } else if (*state > kRunning && found != running.end()) {
+      const bool stays = found->since_us == at && running.size() == 1;  // a state that was come to
+      running.erase(found);
+      if (stays) return;
+    } else {
+      return;
+    }
+    show(name.substr(0, dot), running.empty() ? "" : running.back().value, at, course);
+  }
+
+  // Nothing is known of these when nothing of the plan runs on them.
+  void end(Course& course) const {
+    for (const auto& [timeline, open] : shown_)
+      if (Row* row = row_of(timeline, course); row != nullptr && open) row->held.back().to_us = course.end_us;
+  }
+  bool shows(const std::string& timeline) const { return shown_.contains(timeline); }
+
+ private:
+  static constexpr std::int64_t kRunning = 2;  // of temporal::ActivityState
+  struct Running {
+    std::string activity, value;
+    std::int64_t since_us = 0;
+  };
+
+  void show(const std::string& timeline, const std::string& value, std::int64_t at, Course& course) {
+    Row* row = row_of(timeline, course);
+    if (row == nullptr || row->held.size() >= kChanges) return;
+    bool& open = shown_[timeline];
+    if (open && row->held.back().value == value) return;
+    if (open) row->held.back().to_us = at;
+    open = !value.empty();
+    if (open) row->held.push_back({value, at, at});
+  }
+
+  std::set<std::string> commanded_;
+  std::map<std::string, std::vector<Running>> running_;  // by timeline, in the order of their beginnings
+  std::map<std::string, bool> shown_;                    // by timeline: whether it shows a value now
+};
+
 }  // namespace
 
 Course course_of(std::istream& trace) {
   Course out;
+  Levels levels;
   for (std::string line; std::getline(trace, line);) {
     std::string_view rest = line;
     const auto at = integer_of(next_word(rest));
@@ -88,13 +153,18 @@ Course course_of(std::istream& trace) {
       take_ack(*at, rest, out);
     } else if (kind == "plan") {
       take_plan(rest, out);
+    } else if (kind == "command") {
+      levels.take_command(rest);
+    } else if (kind == "step") {
+      levels.take_step(*at, rest, out);
     } else {
       continue;
     }
     out.end_us = std::max(out.end_us, *at);
   }
   for (Row& row : out.rows)
-    if (!row.held.empty()) row.held.back().to_us = out.end_us;
+    if (!row.held.empty() && !levels.shows(row.timeline)) row.held.back().to_us = out.end_us;
+  levels.end(out);
   return out;
 }
 

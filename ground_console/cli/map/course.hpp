@@ -33,8 +33,9 @@ struct Course {
 /// Bounds what a picture can show of one run; what comes beyond it is left out.
 inline constexpr std::size_t kRows = 64, kChanges = 2000;
 
-/// Reads the text of `roci-trace print` (docs/formats.md): observed states and truths, plans, and repairs, which stand at the timeline that has
-/// the owner's name. Numbers, and lines that say none of this, are passed over.
+/// Reads the text of `roci-trace print --decisions` (docs/formats.md): observed states and truths, plans, and repairs, which stand at the timeline
+/// that has the owner's name; of a plan of several levels (R130) the states above its commands, from the steps whose activities are named
+/// TIMELINE.STATE and that nobody is commanded. Numbers, and lines that say none of this, are passed over.
 Course course_of(std::istream& trace);
 
 using Changes = std::vector<std::pair<std::int64_t, std::string>>;  ///< time and value, by time

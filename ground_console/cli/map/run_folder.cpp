@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 #include <stdexcept>
+#include <vector>
 
 #include "ground_console/lib/mission_view.hpp"
 
@@ -35,9 +36,8 @@ std::string text_at(const json& object, const char* key) {
   return there ? object[key].get<std::string>() : "";
 }
 
-}  // namespace
-
-std::optional<std::string> trace_of(const fs::path& run) {
+// What `roci-trace print OPTIONS` says; nothing if it fails.
+std::optional<std::string> printed(const std::vector<std::string>& options) {
   const fs::path program = fs::read_symlink("/proc/self/exe").parent_path() / "roci-trace";
   std::array<int, 2> pipe_ends{};
   if (pipe2(pipe_ends.data(), O_CLOEXEC) != 0) return std::nullopt;
@@ -45,10 +45,13 @@ std::optional<std::string> trace_of(const fs::path& run) {
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_adddup2(&actions, pipe_ends[1], STDOUT_FILENO);
   posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
-  std::string name = program.string(), verb = "print", folder = run.string();
-  std::array<char*, 4> words{name.data(), verb.data(), folder.data(), nullptr};
+  std::vector<std::string> words{program.string(), "print"};
+  words.insert(words.end(), options.begin(), options.end());
+  std::vector<char*> pointers;
+  for (std::string& word : words) pointers.push_back(word.data());
+  pointers.push_back(nullptr);
   pid_t pid = 0;
-  const int failed = posix_spawn(&pid, name.c_str(), &actions, nullptr, words.data(), environ);
+  const int failed = posix_spawn(&pid, pointers.front(), &actions, nullptr, pointers.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
   close(pipe_ends[1]);
   std::string out;
@@ -59,6 +62,13 @@ std::optional<std::string> trace_of(const fs::path& run) {
   int status = 1;
   if (failed != 0 || waitpid(pid, &status, 0) != pid || status != 0) return std::nullopt;
   return out;
+}
+
+}  // namespace
+
+std::optional<std::string> trace_of(const fs::path& run) {
+  auto out = printed({"--decisions", run.string()});
+  return out ? out : printed({run.string()});
 }
 
 fs::path mission_of(const fs::path& run) {

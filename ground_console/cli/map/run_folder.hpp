@@ -11,7 +11,8 @@
 
 namespace roci::console::cli::map {
 
-/// Returns what `roci-trace print` says of the run, or nothing if it fails: that program reads journals, the ground tool does not.
+/// Returns what `roci-trace print --decisions` says of the run (without decisions of a printed trace that has none), or nothing if it fails: that
+/// program reads journals, the ground tool does not.
 std::optional<std::string> trace_of(const std::filesystem::path& run);
 
 /// The folder of the mission that was flown, which stands in the launcher's command line. Throws std::invalid_argument with the remedy.

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "ground_console/cli/mission_words.hpp"
 #include "ground_console/lib/mission_view.hpp"
 
 namespace roci::console::cli::outlook {
@@ -44,19 +45,9 @@ const char* colour_of(v1::DataTier tier) {
   return name_in(std::array{kRed, kOrange, kBlue, "#8a97a6"}, tier);
 }
 
-std::string bytes_text(std::uint64_t bytes) {
-  const auto value = static_cast<double>(bytes);
-  if (bytes < 1000) return std::to_string(bytes) + " B";
-  if (value < 999.5e3) return three_digits(value / 1e3) + " kB";
-  if (value < 999.5e6) return three_digits(value / 1e6) + " MB";
-  return three_digits(value / 1e9) + " GB";
-}
+std::string bytes_text(std::uint64_t bytes) { return amount_text(static_cast<double>(bytes), "B"); }
 
-std::string joules_text(double joules) {
-  if (std::abs(joules) < 999.5) return three_digits(joules) + " J";
-  if (std::abs(joules) < 999.5e3) return three_digits(joules / 1e3) + " kJ";
-  return three_digits(joules / 1e6) + " MJ";
-}
+std::string joules_text(double joules) { return amount_text(joules, "J"); }
 
 std::string duration_text(double seconds) {
   if (seconds < 120) return three_digits(seconds) + " s";

@@ -1,8 +1,14 @@
+#include <algorithm>
+
 #include "ground_console/cli/report.hpp"
+#include "ground_console/cli/table.hpp"
 #include "ground_console/cli/watch/panels.hpp"
 
 namespace roci::console::cli::watch {
 namespace {
+
+constexpr std::size_t kLongestName = 24;  // columns
+constexpr std::size_t kLongestKind = 16;  // columns
 
 struct GoalLook {
   const char* sign;
@@ -34,18 +40,33 @@ std::string window_of(const v1::Goal* goal) {
   return lib::clock_text(goal->opens_us()) + "–" + lib::clock_text(goal->closes_us());
 }
 
+// Who asks for it, unless the ground does, and its name.
+std::string full_name(const v1::GoalStatus& status) {
+  return status.issuer() == "ground" ? status.id() : status.issuer() + "/" + status.id();
+}
+
 // Where the columns of a goal begin. Of a narrow panel kind and class are left out.
 struct GoalColumns {
   std::size_t name_width = 17;
-  std::size_t kind = 22;
-  std::size_t importance = 34;
-  std::size_t rest = 48;
+  std::size_t kind_width = 11;
+  std::size_t kind = 0;
+  std::size_t importance = 0;
+  std::size_t rest = 0;
   bool narrow = false;
 };
 
-GoalColumns columns_for(std::size_t width) {
-  if (width >= 70) return {};
-  return {12, 0, 0, 17, true};
+// A wide panel has room for longer names, where there are any.
+GoalColumns columns_for(const lib::MissionView& view, std::size_t width) {
+  GoalColumns out;
+  if (width < 70) return {.name_width = 12, .rest = 17, .narrow = true};
+  for (const auto& [key, status] : view.goals()) {
+    out.name_width = std::clamp(columns_of(full_name(status)), out.name_width, kLongestName);
+    out.kind_width = std::clamp(columns_of(status.goal_kind()), out.kind_width, kLongestKind);
+  }
+  out.kind = 4 + out.name_width + 1;
+  out.importance = out.kind + out.kind_width + 1;
+  out.rest = out.importance + 14;
+  return out;
 }
 
 }  // namespace
@@ -54,7 +75,7 @@ void draw_goals(const lib::MissionView& view, const Rectangle& area, Canvas& can
   std::size_t row = area.row;
   canvas.put(row++, area.column, "Goals", Style::title);
   std::size_t number = 0;
-  const GoalColumns columns = columns_for(area.width);
+  const GoalColumns columns = columns_for(view, area.width);
   for (const auto& [key, status] : view.goals()) {
     if (row + 1 >= area.row + area.height && number + 1 < view.goals().size()) {
       canvas.put(row, area.column + 2, "… " + std::to_string(view.goals().size() - number) + " more",
@@ -62,12 +83,11 @@ void draw_goals(const lib::MissionView& view, const Rectangle& area, Canvas& can
       return;
     }
     const GoalLook look = goal_look(status.goal_state());
-    const std::string name = status.issuer() == "ground" ? status.id() : status.issuer() + "/" + status.id();
     canvas.put(row, area.column, std::string(1, goal_letter(number++)), Style::title);
     canvas.put(row, area.column + 2, look.sign, look.style);
-    canvas.put(row, area.column + 4, name, look.style, columns.name_width);
+    canvas.put(row, area.column + 4, full_name(status), look.style, columns.name_width);
     if (!columns.narrow) {
-      canvas.put(row, area.column + columns.kind, status.goal_kind(), Style::plain, 11);
+      canvas.put(row, area.column + columns.kind, status.goal_kind(), Style::plain, columns.kind_width);
       canvas.put(row, area.column + columns.importance, lib::name_of(status.importance()));
     }
     std::string rest = lib::name_of(status.goal_state());

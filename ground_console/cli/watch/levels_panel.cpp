@@ -14,7 +14,7 @@ using temporal::ProjectionKind;
 constexpr std::array kHeights{"▁", "▂", "▃", "▄", "▅", "▆", "▇", "█"};
 
 double value_at(const Level& level, std::int64_t time) {
-  double out = 0;
+  double out = level.before;
   for (const auto& [from, value] : level.changes) {
     if (from > time) break;
     out = value;
@@ -22,17 +22,18 @@ double value_at(const Level& level, std::int64_t time) {
   return out;
 }
 
-void draw_level(const Level& level, std::int64_t now, const Axis& axis, std::size_t row, Canvas& canvas) {
-  double least = 0;
-  double most = 0;
+void draw_level(const Level& level, const std::string& unit, std::int64_t now, const Axis& axis,
+                std::size_t row, Canvas& canvas) {
+  double least = level.before;
+  double most = level.before;
   for (const auto& [time, value] : level.changes) {
     least = std::min(least, value);
     most = std::max(most, value);
   }
-  const double end = level.changes.empty() ? 0 : level.changes.back().second;
+  const double end = level.changes.empty() ? level.before : level.changes.back().second;
   const std::size_t label = axis.column() - axis.label();
   canvas.put(row, label + 4,
-             level.name + " " + lib::value_text(value_at(level, now)) + " → " + lib::value_text(end),
+             level.name + " " + amount_text(value_at(level, now), unit) + " → " + amount_text(end, unit),
              Style::plain, axis.label() - 5);
   for (std::size_t column = axis.column(); column < axis.column() + axis.width(); ++column) {
     const std::int64_t time = axis.time_at(column);
@@ -59,24 +60,26 @@ std::vector<Level> levels_of(const lib::MissionView& view) {
     const bool of_the_plan = std::ranges::any_of(
         changes, [](const ProjectedChange& change) { return change.kind == ProjectionKind::planned; });
     if (!of_the_plan || !std::holds_alternative<double>(changes.front().value)) continue;
-    Level level{name, {}};
+    Level level{name, {}, 0};
     for (const ProjectedChange& change : changes) {
       const double* value = std::get_if<double>(&change.value);
       if (change.kind == ProjectionKind::planned || value == nullptr) continue;
       level.changes.emplace_back(change.time.count(), *value);
     }
+    if (view.timelines().contains(name) && !level.changes.empty())
+      level.before = level.changes.front().second;
     out.push_back(std::move(level));
   }
   return out;
 }
 
-void draw_levels(const lib::MissionView& view, const std::vector<Level>& levels, const Rectangle& area,
-                 Canvas& canvas) {
+void draw_levels(const lib::MissionView& view, const std::vector<Level>& levels, const MissionWords& words,
+                 const Rectangle& area, Canvas& canvas) {
   if (!view.plan() || area.width < Axis::kLeast || area.height < levels.size() + 1) return;
   const Axis axis(view, area);
-  canvas.put(area.row, area.column, "Levels, as changes since the plan began", Style::title);
+  canvas.put(area.row, area.column, "Levels, now → at the end of the plan", Style::title);
   for (std::size_t i = 0; i < levels.size(); ++i) {
-    draw_level(levels[i], view.now_us(), axis, area.row + 1 + i, canvas);
+    draw_level(levels[i], words.unit_of(levels[i].name), view.now_us(), axis, area.row + 1 + i, canvas);
   }
 }
 

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "ground_console/cli/mission_words.hpp"
 #include "ground_console/cli/robots.hpp"
 #include "ground_console/cli/watch/canvas.hpp"
 #include "ground_console/lib/mission_view.hpp"
@@ -35,8 +36,8 @@ void draw_maps(const lib::MissionView& view, const std::vector<Robot>& robots,
 
 /// Several robots side by side, each with its place, its states, its map in words and as a picture, and below them the states of
 /// the team. Returns how many rows it took.
-std::size_t draw_robots(const lib::MissionView& view, const std::vector<Robot>& robots, const Rectangle& area,
-                        Canvas& canvas);
+std::size_t draw_robots(const lib::MissionView& view, const std::vector<Robot>& robots,
+                        const MissionWords& words, const Rectangle& area, Canvas& canvas);
 
 /// Decisions that are open, and repairs, those under way first. Returns how many rows it took: none where there are none.
 std::size_t draw_open(const lib::MissionView& view, const Rectangle& area, Canvas& canvas);
@@ -44,17 +45,19 @@ std::size_t draw_open(const lib::MissionView& view, const Rectangle& area, Canva
 /// Windows and activities over time: done, running, planned, and a line for now.
 void draw_plan(const lib::MissionView& view, const Rectangle& area, Canvas& canvas);
 
-/// A number that the plan changes: what has come about, then what is still to come; 0 where the plan began.
+/// A number that the plan changes: what has come about, then what is still to come.
 struct Level {
   std::string name;
   /// (mission time in us, value from then on), by time
   std::vector<std::pair<std::int64_t, double>> changes;
+  /// The first change; 0 for a number that nobody observes, which is the change since the plan began.
+  double before = 0;
 };
 std::vector<Level> levels_of(const lib::MissionView& view);
 
-/// A curve for each, over the axis of the plan: bright until now, dim beyond. Draws all of them or nothing.
-void draw_levels(const lib::MissionView& view, const std::vector<Level>& levels, const Rectangle& area,
-                 Canvas& canvas);
+/// A curve for each from its least to its highest value, over the axis of the plan: bright until now, dim beyond. Draws all of them or nothing.
+void draw_levels(const lib::MissionView& view, const std::vector<Level>& levels, const MissionWords& words,
+                 const Rectangle& area, Canvas& canvas);
 
 void draw_events(const lib::MissionView& view, const Rectangle& area, Canvas& canvas);
 

@@ -46,11 +46,12 @@ struct Line {
   Style style = Style::plain;
 };
 
-std::vector<Line> lines_of(const lib::MissionView& view, const Robot& robot, std::size_t width) {
+std::vector<Line> lines_of(const lib::MissionView& view, const Robot& robot, const MissionWords& words,
+                           std::size_t width) {
   std::vector<Line> out{
       {(robot.place ? "▲ " : "") + robot.name + (robot.doing.empty() ? "" : "   " + robot.doing),
        Style::title}};
-  if (const std::string where = where_text(robot); !where.empty()) out.push_back({where});
+  if (const std::string where = where_text(robot, words); !where.empty()) out.push_back({where});
   std::vector<std::string> states;
   for (const auto& [name, value] : states_by_family(view, robot)) states.push_back(name + " " + value);
   std::vector<std::string> rows = in_rows(states, width, "   ");
@@ -60,17 +61,17 @@ std::vector<Line> lines_of(const lib::MissionView& view, const Robot& robot, std
   }
   for (std::string& row : rows) out.push_back({std::move(row)});
   for (const v1::KnownMap* map : robot.maps) {
-    std::vector<std::string> words = wrapped("map " + map_text(*map), width);
-    words.resize(std::min(words.size(), kMostMap));
-    for (std::string& row : words) out.push_back({std::move(row), Style::active});
+    std::vector<std::string> told = wrapped("map " + map_text(*map), width);
+    told.resize(std::min(told.size(), kMostMap));
+    for (std::string& row : told) out.push_back({std::move(row), Style::active});
   }
   return out;
 }
 
 }  // namespace
 
-std::size_t draw_robots(const lib::MissionView& view, const std::vector<Robot>& all, const Rectangle& area,
-                        Canvas& canvas) {
+std::size_t draw_robots(const lib::MissionView& view, const std::vector<Robot>& all,
+                        const MissionWords& words, const Rectangle& area, Canvas& canvas) {
   const std::size_t fitting = std::max<std::size_t>(1, (area.width + kGap) / (kLeastColumn + kGap));
   const std::vector<Robot> robots(all.begin(),
                                   all.begin() + static_cast<std::ptrdiff_t>(std::min(all.size(), fitting)));
@@ -80,7 +81,7 @@ std::size_t draw_robots(const lib::MissionView& view, const std::vector<Robot>& 
   std::size_t used = 0;
   for (std::size_t i = 0; i < robots.size(); ++i) {
     std::size_t row = 0;
-    for (const Line& line : lines_of(view, robots[i], width)) {
+    for (const Line& line : lines_of(view, robots[i], words, width)) {
       if (row >= area.height) break;
       canvas.put(area.row + row++, area.column + i * step, line.text, line.style, width);
     }

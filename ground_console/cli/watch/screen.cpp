@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "ground_console/cli/table.hpp"
 #include "ground_console/cli/watch/panels.hpp"
 
 namespace roci::console::cli::watch {
@@ -40,22 +41,32 @@ void draw_head(const lib::MissionView& view, Canvas& canvas) {
 }
 
 // States and levels as last observed, the subsystem's name without its owner's.
-void draw_robot(const lib::MissionView& view, const std::vector<Robot>& robots, std::size_t row,
-                Canvas& canvas) {
+void draw_robot(const lib::MissionView& view, const std::vector<Robot>& robots, const MissionWords& words,
+                std::size_t row, Canvas& canvas) {
   std::size_t column = canvas.put(row, 0, "Robot", Style::title) + 2;
   for (const auto& [name, observation] : view.timelines()) {
     const auto dot = name.find('.');
     const bool battery = name.ends_with(".battery");
     const bool robot = dot != std::string::npos && !robots.empty() && name.substr(0, dot) == robots[0].name;
     if (!robot || (observation.observed().kind() != v1::VALUE_STATE && !battery)) continue;
-    column = canvas.put(row, column, name.substr(dot + 1) + " ", Style::dim);
-    column = canvas.put(row, column, lib::value_text(observation.observed())) + 3;
+    const std::string subsystem = name.substr(dot + 1);
+    const v1::TimelineValue& value = observation.observed();
+    const std::string text = value.kind() == v1::VALUE_NUMBER
+                                 ? amount_text(value.number(), words.unit_of(name))
+                                 : lib::value_text(value);
+    if (column + columns_of(subsystem) + 1 + columns_of(text) + 4 > canvas.width()) {
+      canvas.put(row, column, "…", Style::dim);
+      return;
+    }
+    column = canvas.put(row, column, subsystem + " ", Style::dim);
+    column = canvas.put(row, column, text) + 3;
   }
 }
 
 }  // namespace
 
-Canvas watch_screen(const lib::MissionView& view, std::size_t width, std::size_t height) {
+Canvas watch_screen(const lib::MissionView& view, std::size_t width, std::size_t height,
+                    const MissionWords& words) {
   Canvas canvas(width, height);
   draw_head(view, canvas);
   const bool map_fits = width >= kNarrowest;
@@ -70,9 +81,9 @@ Canvas watch_screen(const lib::MissionView& view, std::size_t width, std::size_t
   if (one_map) draw_map(view, {2, goals_width + 1, width - goals_width - 1, top}, canvas);
   std::size_t robots_height = 1;
   if (several) {
-    robots_height = draw_robots(view, robots, {top + 3, 0, width, height * 2 / 5}, canvas);
+    robots_height = draw_robots(view, robots, words, {top + 3, 0, width, height * 2 / 5}, canvas);
   } else {
-    draw_robot(view, robots, top + 3, canvas);
+    draw_robot(view, robots, words, top + 3, canvas);
   }
   const std::size_t open_row = top + 4 + robots_height;
   const std::size_t open = draw_open(view, {open_row, 0, width, height / 6}, canvas);
@@ -89,7 +100,7 @@ Canvas watch_screen(const lib::MissionView& view, std::size_t width, std::size_t
   draw_plan(view, {plan_row, 0, width, plan_height}, canvas);
   std::size_t after = plan_row + plan_height + (plan_height > 0 ? 1 : 0);
   if (!levels.empty() && after + levels_height <= events_row) {
-    draw_levels(view, levels, {after, 0, width, levels_height}, canvas);
+    draw_levels(view, levels, words, {after, 0, width, levels_height}, canvas);
     after += levels_height;
   }
   draw_events(view, {after, 0, width, height > after ? height - after : 0}, canvas);

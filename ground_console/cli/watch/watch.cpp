@@ -92,12 +92,12 @@ int watch_as_json(lib::Client& client) {
 
 }  // namespace
 
-int watch(lib::Client& client, bool closing_matters, bool json) {
+int watch(lib::Client& client, const MissionWords& words, bool closing_matters, bool json) {
   std::signal(SIGINT, [](int) { interrupted = 1; });
   if (json) return watch_as_json(client);
   const auto draw = [&] {
     const auto [width, height] = Screen::size();
-    return Screen::text_of(watch_screen(client.view(), width, height - 1));
+    return Screen::text_of(watch_screen(client.view(), width, height - 1, words));
   };
   std::string last;
   {

@@ -1,8 +1,12 @@
 #include "planner_svc/timeline_htn/search/decompositions.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <iterator>
 #include <optional>
+#include <queue>
+#include <unordered_set>
+#include <utility>
 
 namespace roci::planner::timeline_htn::search {
 
@@ -51,80 +55,120 @@ std::vector<StateId> Decompositions::explore(StateId root) {
   return found;
 }
 
-// The fewest values, by rounds until nothing changes: a way counts once all its parts are known.
+// The fewest values first (Knuth 1977, who takes Dijkstra's shortest paths to grammars): a way counts once all its parts are known.
 void Decompositions::measure(const std::vector<StateId>& states) {
-  for (bool more = true; more;) {
-    more = false;
-    for (auto state = states.rbegin(); state != states.rend(); ++state) {
-      Entry& own = entries_[*state];
-      for (const Way& way : own.ways) {
-        std::uint64_t sum = 1;
-        for (const StateId part : way.parts) {
-          if (is_complex(part)) {
-            const std::uint32_t below = entries_[part].values;
-            sum = below == kNone || sum >= kNone ? kNone : sum + below;
-          } else if (ground_->at(part).kind == model::StateKind::simple && sum < kNone) {
-            ++sum;
-          }
-        }
-        if (sum < own.values) {
-          own.values = static_cast<std::uint32_t>(sum);
-          more = true;
+  struct Sum {
+    StateId state;
+    std::uint64_t values = 1;
+    std::size_t missing = 0;
+  };
+  std::vector<Sum> sums;
+  std::unordered_map<StateId, std::vector<std::size_t>> waiting;
+  std::priority_queue<std::pair<std::uint64_t, StateId>, std::vector<std::pair<std::uint64_t, StateId>>,
+                      std::greater<>>
+      queue;
+  const auto offer = [&](const Sum& sum) {
+    if (sum.missing == 0 && sum.values < kNone) queue.emplace(sum.values, sum.state);
+  };
+  for (const StateId state : states) {
+    for (const Way& way : entries_[state].ways) {
+      Sum sum{state};
+      for (const StateId part : way.parts) {
+        if (!is_complex(part)) {
+          sum.values += ground_->at(part).kind == model::StateKind::simple ? 1 : 0;
+        } else if (const std::uint32_t known = entries_[part].values; known != kNone) {
+          sum.values += known;
+        } else {
+          ++sum.missing;
+          waiting[part].push_back(sums.size());
         }
       }
+      offer(sum);
+      sums.push_back(sum);
+    }
+  }
+  while (!queue.empty()) {
+    const auto [values, state] = queue.top();
+    queue.pop();
+    Entry& own = entries_[state];
+    if (own.values != kNone) continue;
+    own.values = static_cast<std::uint32_t>(values);
+    for (const std::size_t way : waiting[state]) {
+      sums[way].values += values;
+      --sums[way].missing;
+      offer(sums[way]);
     }
   }
 }
 
-// The greatest sets that agree with each other: of each state itself and what all its ways share.
-void Decompositions::find_landmarks(const std::vector<StateId>& states) {
-  for (bool more = true; more;) {
-    more = false;
-    for (auto state = states.rbegin(); state != states.rend(); ++state) {
-      Entry& own = entries_[*state];
-      if (own.values == kNone) continue;
-      std::optional<std::vector<StateId>> shared;  // nothing: no way is known yet
-      for (const Way& way : own.ways) {
-        std::vector<StateId> all;
-        bool known = true;
-        for (const StateId part : way.parts) {
-          if (!is_complex(part)) {
-            if (ground_->at(part).kind == model::StateKind::simple) all.push_back(part);
-            continue;
-          }
-          const Entry& below = entries_[part];
-          known = known && below.settled;
-          all.insert(all.end(), below.landmarks.begin(), below.landmarks.end());
-        }
-        if (!known) continue;
-        std::ranges::sort(all);
-        const auto doubled = std::ranges::unique(all);
-        all.erase(doubled.begin(), doubled.end());
-        if (!shared) {
-          shared = std::move(all);
-          continue;
-        }
-        std::vector<StateId> both;
-        std::ranges::set_intersection(*shared, all, std::back_inserter(both));
-        shared = std::move(both);
+// What all ways of a state share, with the state; nothing: no way is known yet. A way by way of what cannot come about without this state
+// shares all of it anyway.
+std::optional<std::vector<StateId>> Decompositions::shared_by_ways(StateId state) {
+  std::optional<std::vector<StateId>> shared;
+  std::vector<StateId> all, both;
+  for (const Way& way : entries_[state].ways) {
+    const bool counts = std::ranges::all_of(way.parts, [&](StateId part) {
+      if (!is_complex(part)) return true;
+      const Entry& below = entries_[part];
+      return part != state && !below.landmarks.empty() && !std::ranges::binary_search(below.landmarks, state);
+    });
+    if (!counts) continue;
+    all.clear();
+    for (const StateId part : way.parts)
+      if (ground_->at(part).kind == model::StateKind::simple) all.push_back(part);
+    std::ranges::sort(all);
+    const auto doubled = std::ranges::unique(all);
+    all.erase(doubled.begin(), doubled.end());
+    for (const StateId part : way.parts) {
+      if (!is_complex(part)) continue;
+      both.clear();
+      std::ranges::set_union(all, entries_[part].landmarks, std::back_inserter(both));
+      std::swap(all, both);
+    }
+    if (!shared) {
+      shared = all;
+      continue;
+    }
+    both.clear();
+    std::ranges::set_intersection(*shared, all, std::back_inserter(both));
+    std::swap(*shared, both);
+  }
+  if (!shared) return shared;
+  const auto place = std::ranges::lower_bound(*shared, state);
+  if (place == shared->end() || *place != state) shared->insert(place, state);
+  return shared;
+}
+
+// The greatest sets that agree with each other: of each state itself and what all its ways share. Those of few values come first, so that
+// nearly all are found in one round.
+void Decompositions::find_landmarks(StateId root) {
+  std::vector<StateId> states{root};
+  std::unordered_map<StateId, std::vector<StateId>> above{{root, {}}};
+  for (std::size_t i = 0; i < states.size(); ++i)
+    for (const Way& way : entries_[states[i]].ways)
+      for (const StateId part : way.parts) {
+        if (!is_complex(part) || entries_[part].settled || entries_[part].values == kNone) continue;
+        const auto [entry, added] = above.try_emplace(part);
+        if (added) states.push_back(part);
+        entry->second.push_back(states[i]);
       }
-      if (!shared) continue;
-      const auto place = std::ranges::lower_bound(*shared, *state);
-      if (place == shared->end() || *place != *state) shared->insert(place, *state);
-      if (own.settled && own.landmarks == *shared) continue;
-      own.settled = true;
+  std::ranges::stable_sort(states, {}, [&](StateId state) { return entries_[state].values; });
+  std::unordered_set<StateId> stale(states.begin(), states.end());
+  while (!stale.empty()) {
+    for (const StateId state : states) {
+      if (stale.erase(state) == 0) continue;
+      std::optional<std::vector<StateId>> shared = shared_by_ways(state);
+      Entry& own = entries_[state];
+      if (!shared || own.landmarks == *shared) continue;
       own.landmarks = std::move(*shared);
-      more = true;
+      stale.insert(above[state].begin(), above[state].end());
     }
   }
+  for (const StateId state : states) entries_[state].settled = true;
 }
 
 Decompositions::Entry& Decompositions::entry(StateId state) {
-  const std::vector<StateId> found = explore(state);
-  if (!found.empty()) {
-    measure(found);
-    find_landmarks(found);
-  }
+  if (const std::vector<StateId> found = explore(state); !found.empty()) measure(found);
   return entries_[state];
 }
 
@@ -154,10 +198,7 @@ bool Decompositions::derivable_without(StateId root, const std::vector<StateId>&
   return derived[root];
 }
 
-bool Decompositions::derivable(StateId state) {
-  if (const std::vector<StateId> found = explore(state); !found.empty()) measure(found);
-  return entries_[state].values != kNone;
-}
+bool Decompositions::derivable(StateId state) { return entry(state).values != kNone; }
 
 bool Decompositions::derivable(Index behaviour, const std::vector<Index>& objects) {
   const std::optional<Way> way = way_of(behaviour, objects);
@@ -167,6 +208,10 @@ bool Decompositions::derivable(Index behaviour, const std::vector<Index>& object
 
 std::uint32_t Decompositions::values(StateId state) { return entry(state).values; }
 
-const std::vector<StateId>& Decompositions::landmarks(StateId state) { return entry(state).landmarks; }
+const std::vector<StateId>& Decompositions::landmarks(StateId state) {
+  Entry& own = entry(state);
+  if (!own.settled && own.values != kNone) find_landmarks(state);
+  return own.landmarks;
+}
 
 }  // namespace roci::planner::timeline_htn::search

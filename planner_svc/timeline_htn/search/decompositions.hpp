@@ -15,8 +15,7 @@ class Decompositions {
  public:
   Decompositions(Ground& ground, const Successors& successors) : ground_(&ground), successors_(&successors) {}
 
-  /// Returns whether behaviours make a state up at all. Of one object of this class either what begins with this is asked or
-  /// values and landmarks.
+  /// Returns whether behaviours make a state up at all.
   bool derivable(StateId state);
   /// Returns whether all parts of a behaviour with these objects can be made up: else it leads nowhere, whatever the timelines.
   bool derivable(Index behaviour, const std::vector<Index>& objects);
@@ -34,7 +33,7 @@ class Decompositions {
   struct Entry {
     std::vector<Way> ways;
     std::uint32_t values = kNone;
-    bool settled = false;  // what the landmarks were computed for
+    bool settled = false;  // whether the landmarks are known
     std::vector<StateId> landmarks;
   };
 
@@ -44,7 +43,8 @@ class Decompositions {
   Entry& entry(StateId state);
   std::vector<StateId> explore(StateId state);
   void measure(const std::vector<StateId>& states);
-  void find_landmarks(const std::vector<StateId>& states);
+  void find_landmarks(StateId root);
+  std::optional<std::vector<StateId>> shared_by_ways(StateId state);
 
   Ground* ground_;
   const Successors* successors_;

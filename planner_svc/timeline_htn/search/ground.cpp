@@ -262,6 +262,16 @@ std::vector<StateId> Ground::reachable(StateId from, const Pattern& pattern, std
   return out;
 }
 
+std::vector<StateId> Ground::reachable(StateId from) {
+  const std::vector<Index> known = distances(from);
+  const auto& same = by_component_[instances_[from].state.component];
+  std::vector<StateId> out;
+  for (std::size_t i = 0; i < known.size(); ++i)
+    if (known[i] != kNone) out.push_back(same[i]);
+  std::ranges::stable_sort(out, {}, [&](StateId state) { return known[instances_[state].local]; });
+  return out;
+}
+
 std::vector<std::vector<Index>> Ground::bindings(const std::vector<Variable>& variables,
                                                  std::vector<Index> bound,
                                                  const std::vector<Test>& where) const {

@@ -51,6 +51,8 @@ class Ground {
   Index distance_to_rest(StateId from);
   /// Returns the states that fit and can be reached, the nearest first; bound variables have an object, others kNone.
   std::vector<StateId> reachable(StateId from, const model::Pattern& pattern, std::span<const Index> bound);
+  /// Returns all states that can be reached, the nearest first.
+  std::vector<StateId> reachable(StateId from);
   /// Returns whether a state is one of the pattern's, where variables that are kNone fit all.
   bool fits(StateId state, const model::Pattern& pattern, std::span<const Index> bound) const;
   /// Returns the components that bringing about some state of this one may touch or look at.

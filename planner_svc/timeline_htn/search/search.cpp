@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "planner_svc/timeline_htn/search/decompositions.hpp"
+
 namespace roci::planner::timeline_htn::search {
 
 using model::Model, model::Problem;
@@ -9,6 +11,9 @@ using model::Model, model::Problem;
 namespace {
 
 constexpr std::uint64_t kPollEach = 64;
+
+// Steps after which a problem is hard enough for the relaxed reachability to be looked at.
+constexpr std::uint64_t kBeforeReachability = 20'000;
 
 constexpr int kPassWithDetours = 1;
 constexpr int kPassThatDropsNothing = 2;
@@ -56,22 +61,13 @@ Search::Search(const Model& model, const Resolver& resolver)
 
 std::optional<Obstacle> Search::out_of_reach() {
   const auto can_be = [&](StateId state) {
-    return ground_.at(state).kind != model::StateKind::complex || successors_.derivable(state);
+    return ground_.at(state).kind != model::StateKind::complex || successors_.below().derivable(state);
   };
   const Model& model = ground_.model();
   for (const Index g : goals_) {
     const model::Pattern& wanted = model.problem->goals[g].state;
     const StateId from = plan_->tokens()[plan_->current(wanted.component)].state;
-    std::vector<StateId> all;
-    for (Index s = 0; s < model.components[wanted.component].states.size(); ++s) {
-      const auto parameters =
-          static_cast<Index>(model.components[wanted.component].states[s].parameters.size());
-      model::Pattern any{wanted.component, s, {}};
-      for (Index i = 0; i < parameters; ++i) any.terms.push_back({i, false});
-      const std::vector<Index> open(parameters, kNone);
-      const auto found = ground_.reachable(from, any, open);
-      all.insert(all.end(), found.begin(), found.end());
-    }
+    const std::vector<StateId> all = ground_.reachable(from);
     const auto targets = ground_.reachable(from, wanted, {});
     if (targets.empty()) continue;  // the search says what is missing
     const bool within_reach = std::ranges::any_of(targets, [&](StateId target) {
@@ -159,18 +155,29 @@ std::uint64_t Search::signature() const {
   return out;
 }
 
-// Starts again with what the pass before has left out; false: it has left out nothing.
-bool Search::next_pass() {
-  if (pass_ < kPassWithDetours && successors_.left_out()) {
-    pass_ = kPassWithDetours;
-  } else if (pass_ < kPassThatDropsNothing && count_.repeated > 0 && plan_->refusals_by_time() > 0) {
-    pass_ = kPassThatDropsNothing;
-  } else {
-    return false;
+bool Search::is_hopeless(std::size_t memory_bytes, const std::function<bool()>& cancelled) {
+  if (!looked_at_) {
+    const std::size_t used = bytes();
+    if (memory_bytes > used)
+      never_reached_ = never_reached(ground_.model(), memory_bytes - used, cancelled);
+    else if (memory_bytes == 0)
+      never_reached_ = never_reached(ground_.model(), ~std::size_t{0}, cancelled);
+    looked_at_ = true;
   }
+  return never_reached_.has_value();
+}
+
+// Whether the passes so far have left out something.
+bool Search::may_pass_again() const {
+  return (pass_ < kPassWithDetours && successors_.left_out()) ||
+         (pass_ < kPassThatDropsNothing && count_.repeated > 0 && plan_->refusals_by_time() > 0);
+}
+
+// Starts again with what the pass before has left out.
+void Search::next_pass() {
+  pass_ = pass_ < kPassWithDetours && successors_.left_out() ? kPassWithDetours : kPassThatDropsNothing;
   successors_.permit_detours();
   start();
-  return state_ == Outcome::searching;
 }
 
 // Keeps what was met farthest. The first pass tells it best: later ones try what nobody would mean.
@@ -206,9 +213,12 @@ Outcome Search::run(std::uint64_t evaluations, std::size_t memory_bytes,
     }
     while (!open_.empty() && open_.begin()->second.empty()) open_.erase(open_.begin());
     if (open_.empty()) {
-      if (!next_pass()) return state_ = Outcome::exhausted;
+      if (!may_pass_again() || is_hopeless(memory_bytes, cancelled)) return state_ = Outcome::exhausted;
+      next_pass();
       continue;
     }
+    if (count_.evaluated == kBeforeReachability && is_hopeless(memory_bytes, cancelled))
+      return state_ = Outcome::exhausted;
     const Index node = open_.begin()->second.back();
     open_.begin()->second.pop_back();
     ++count_.evaluated;
@@ -242,9 +252,10 @@ std::size_t Search::bytes() const {
          bindings_.bytes() + marks_.capacity() * sizeof(PartialPlan::Mark);
 }
 
-Index Search::blocking_goal() const { return obstacle_.goal; }
+Index Search::blocking_goal() const { return never_reached_ ? never_reached_->goal : obstacle_.goal; }
 
 std::string Search::reason() const {
+  if (never_reached_) return never_reached_->reason;
   const Model& model = ground_.model();
   const Obstacle& one = obstacle_;
   const auto wanted = [&] { return one.state == kNone ? std::string("the plan") : ground_.text(one.state); };

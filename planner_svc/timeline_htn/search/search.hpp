@@ -5,11 +5,13 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <unordered_set>
 #include <vector>
 
 #include "planner_svc/timeline_htn/search/partial_plan.hpp"
+#include "planner_svc/timeline_htn/search/relaxed_reachability.hpp"
 #include "planner_svc/timeline_htn/search/successors.hpp"
 
 namespace roci::planner::timeline_htn::search {
@@ -59,12 +61,16 @@ std::vector<Index> goal_order(const model::Problem& problem);
 /// drops a plan whose timelines and open activities are those of one that was seen, whatever its times. The second takes detours. Where
 /// time has refused a step, what was dropped may be missed, so the third drops nothing. So it is complete, as far as the ancestors of a
 /// complex state do not hold that state again.
+///
+/// Before it takes detours, or where the first pass takes long, it looks once whether a relaxed reachability proves that there is no plan.
 class Search {
  public:
   Search(const model::Model& model, const Resolver& resolver);
 
   /// Goes on until it is solved or exhausted, or so many steps were tried in all.
   Outcome run(std::uint64_t evaluations, std::size_t memory_bytes, const std::function<bool()>& cancelled);
+  /// From now on only the search itself proves anything: what the relaxed reachability is compared with.
+  void prove_by_search_alone() { looked_at_ = true; }
   Outcome state() const { return state_; }
   const Count& count() const { return count_; }
   /// With solved: the plan that was found.
@@ -85,7 +91,10 @@ class Search {
   void start();
   // A goal that no timeline can come to, since behaviours with the objects that there are make up nothing before it.
   std::optional<Obstacle> out_of_reach();
-  bool next_pass();
+  // Whether it is proved that no pass finds a plan. It is looked at once.
+  bool is_hopeless(std::size_t memory_bytes, const std::function<bool()>& cancelled);
+  bool may_pass_again() const;
+  void next_pass();
   bool go_to(Index node);
   void expand(Index node);
   std::uint64_t signature() const;
@@ -105,6 +114,8 @@ class Search {
   std::vector<PartialPlan::Mark> marks_;
   std::vector<Step> steps_;
   Obstacle obstacle_;
+  std::optional<NeverReached> never_reached_;
+  bool looked_at_ = false;  // whether the relaxed reachability was
   std::size_t farthest_ = 0;
   int pass_ = 0;
   Outcome state_ = Outcome::searching;

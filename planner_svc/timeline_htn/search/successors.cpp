@@ -49,8 +49,6 @@ std::vector<std::vector<Index>> Successors::ways(Index index, StateId state) con
   return ground_->bindings(behaviour.variables, std::move(bound), behaviour.where);
 }
 
-bool Successors::derivable(StateId state) { return below_->derivable(state); }
-
 bool Successors::whole(const PartialPlan& plan, const Ground& ground) {
   if (plan.urgent() != nullptr || !plan.open().empty()) return false;
   for (Index c = 0; c < ground.model().components.size(); ++c) {

@@ -40,8 +40,8 @@ class Successors {
   const std::vector<Index>& behaviours(Index component, Index state) const;
   /// Returns the bindings of a behaviour's variables with which it achieves the state.
   std::vector<std::vector<Index>> ways(Index behaviour, StateId state) const;
-  /// Returns whether behaviours make a complex state up at all, whatever the timelines.
-  bool derivable(StateId state);
+  /// Returns what complex states can be made of, whatever the timelines.
+  Decompositions& below() const { return *below_; }
 
  private:
   void urgent(const PartialPlan& plan, const Urgent& item, std::vector<Step>& out);

@@ -178,6 +178,14 @@ engine::DownlinkSchedule schedule_of(const Situation& at) {
   return out;
 }
 
+std::map<cycle::TaskId, std::vector<std::string>> products_by_task(const engine::DownlinkSchedule& schedule) {
+  std::map<cycle::TaskId, std::vector<std::string>> out;
+  for (const engine::ScheduledDownlink& one : schedule.downlinks)
+    if (const auto task = task_of(one.activity))
+      for (const ScheduledProduct& product : one.products) out[*task].push_back(product.id);
+  return out;
+}
+
 void Outlooks::forgotten(const Situation& after, const std::vector<Block>& begun_before) {
   for (const Block& before : begun_before) {
     if (std::ranges::find(after.cycle.blocks(), before.number, &Block::number) != after.cycle.blocks().end())

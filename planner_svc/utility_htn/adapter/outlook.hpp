@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <map>
+#include <string>
 #include <vector>
 
 #include "planner_svc/engine/outlook.hpp"
@@ -28,6 +29,9 @@ std::vector<engine::UtilityRank> ranks_of(const model::Network& network);
 /// Returns which data go with which downlink of the plan, and what does not and why. Data that exist have the ids under which they were
 /// heard, those that are planned "request/task/product"; several of one name are numbered.
 engine::DownlinkSchedule schedule_of(const Situation& situation);
+
+/// Returns what the schedule tells each downlink to send, in order.
+std::map<cycle::TaskId, std::vector<std::string>> products_by_task(const engine::DownlinkSchedule& schedule);
 
 /// Makes outlooks, and remembers for them what the cycle forgets: chains that have ended, the newest kMostEnded, and what was predicted of
 /// chains before they began. A restarted process remembers none, and tells for begun chains what the network holds of them.

@@ -193,8 +193,10 @@ void UtilityEngine::tell_outlook(const cycle::Report& report, const std::vector<
   if (!report.changed && report.explored == 0 && !std::exchange(to_look_, false)) return;
   to_look_ = false;
   if (settings_.downlinks)  // without the Downlink Manager there is no schedule to tell
-    if (engine::DownlinkSchedule schedule = schedule_of(situation); schedule != told_schedule_)
+    if (engine::DownlinkSchedule schedule = schedule_of(situation); schedule != told_schedule_) {
       out.schedule = told_schedule_ = std::move(schedule);
+      delivery_.told(products_by_task(told_schedule_));
+    }
   if (engine::MissionOutlook outlook = outlooks_.make(situation); outlook != told_outlook_)
     out.outlook = told_outlook_ = std::move(outlook);
 }

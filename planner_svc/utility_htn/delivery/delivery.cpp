@@ -58,6 +58,8 @@ struct Delivery::Question {
   std::vector<search::PlannedDownlink> downlinks{};  // by window
   std::size_t existing = 0;                          // so many of `standing` exist, the first ones
   downlink::Limits limits{};
+  // What the radio is just sending, by window: it goes whatever is planned, and its room is taken off the window.
+  std::map<std::size_t, DataProduct> sending{};
 
   // Returns whether some window may not be used whole.
   bool limits_bind() const {
@@ -204,11 +206,35 @@ Delivery::Question Delivery::question(const search::PlannedData& planned, const 
     window.energy_limit_j = std::max(0.0, window.energy_limit_j - (before - Rules::joules(window)));
   }
   const double limit = rules_.sol_limit_j(values);
+  keep_what_is_sent(out, now);
   if (std::isfinite(limit)) {
     for (const downlink::Window& window : out.windows)
       out.limits.sol_energy_j[window.sol] = std::max(0.0, limit - spent_in(window.sol));
   }
   return out;
+}
+
+// The radio does not break off what it has begun. If it takes longer than what is left, other data must not have that room.
+void Delivery::keep_what_is_sent(Question& question, Time now) const {
+  for (std::size_t w = 0; w < question.windows.size(); ++w) {
+    const auto told = told_.find(question.downlinks[w].id);
+    if (question.downlinks[w].start >= now || told == told_.end()) continue;
+    const auto exists = question.standing.begin() + static_cast<std::ptrdiff_t>(question.existing);
+    for (const std::string& id : told->second) {
+      const auto found = std::find_if(question.standing.begin(), exists,
+                                      [&](const DataProduct& one) { return one.id == id; });
+      if (found == exists) continue;
+      downlink::Window& window = question.windows[w];
+      const double before = Rules::joules(window);
+      const double takes_s = static_cast<double>(found->bytes) / window.bytes_per_s;
+      window.latest_end = std::max(window.start, window.latest_end - temporal::seconds(takes_s));
+      window.energy_limit_j = std::max(0.0, window.energy_limit_j - (before - Rules::joules(window)));
+      question.sending.emplace(w, std::move(*found));
+      question.standing.erase(found);
+      --question.existing;
+      break;
+    }
+  }
 }
 
 // Returns the joules of what was executed in a sol.
@@ -284,6 +310,15 @@ Schedule Delivery::schedule(const search::PlannedData& planned, const model::Val
                                                           load.energy_j,
                                                           {},
                                                           planned_one.id});
+    if (const auto sending = asked.sending.find(w); sending != asked.sending.end()) {
+      const DataProduct& product = sending->second;
+      const double takes_s = static_cast<double>(product.bytes) / asked.windows[w].bytes_per_s;
+      added.bytes += product.bytes;
+      added.takes += temporal::seconds(takes_s);
+      added.energy_j += takes_s * asked.windows[w].power_w;
+      added.products.push_back(product.id);
+      out.products[product.id] = {true, product.bytes, product.tier};
+    }
     for (const std::size_t p : order)
       if (found.window[p] == w) added.products.push_back(all[p].id);
   }

@@ -89,6 +89,10 @@ class Delivery {
   /// million as a million.
   /// `now` is when it was heard: a downlink that runs has been sending the next product since the last one was sent.
   bool hear(Existing product, temporal::Time now = temporal::Time{0});
+  /// Takes in what downlinks were told to send, in order: of one that runs, the first that is still on board is being sent.
+  void told(std::map<temporal::timelines::TaskId, std::vector<std::string>> products) {
+    told_ = std::move(products);
+  }
   /// Takes in what an executed downlink took, for the limit of its sol. `activity` is unique; what is told again counts once.
   void executed(std::uint64_t activity, model::TaskIndex task, temporal::Time start, temporal::Time end,
                 const model::Values& values);
@@ -132,6 +136,7 @@ class Delivery {
   struct Question;
   Question question(const search::PlannedData& planned, const model::Values& values,
                     temporal::Time now) const;
+  void keep_what_is_sent(Question& question, temporal::Time now) const;
   double spent_in(std::uint32_t sol) const;
   bool keeps_limits(const search::PlannedData& planned, const model::Values& values) const;
 
@@ -143,6 +148,7 @@ class Delivery {
   std::set<std::uint64_t> executed_;
   Counts counts_;
   temporal::Time last_sent_{0};  // when the newest product was sent
+  std::map<temporal::timelines::TaskId, std::vector<std::string>> told_;
 };
 
 }  // namespace roci::planner::utility_htn::delivery

@@ -14,6 +14,7 @@ extern "C" {
 #include <mutex>
 #include <shared_mutex>
 #include <utility>
+#include <vector>
 
 #include "services/certificate/guid_prefix.hpp"
 #include "services/vendors/cyclonedds/imports.hpp"
@@ -43,6 +44,7 @@ Guards& guards() {
 
 decltype(&::bind) real_bind = nullptr;
 decltype(&::recvmsg) real_recvmsg = nullptr;
+decltype(&::sendmsg) real_sendmsg = nullptr;
 int (*real_initialize)(ddsi_domaingv*) = nullptr;
 dds_return_t (*real_new_participant)(ddsi_guid*, ddsi_domaingv*, unsigned, const ddsi_plist*) = nullptr;
 std::uint64_t (*real_number)() = nullptr;
@@ -65,6 +67,7 @@ std::shared_ptr<guard::Guard> guard_of(int socket) {
   return found == table.of_socket.end() ? nullptr : found->second;
 }
 
+// Whom a message is from, or for.
 std::optional<guard::Source> source_of(const msghdr& message) {
   sockaddr_in from{};
   if (message.msg_name == nullptr || message.msg_namelen < sizeof from) return std::nullopt;
@@ -143,12 +146,27 @@ extern "C" ssize_t guarded_recvmsg(int socket, msghdr* message, int flags) {
   return 1;
 }
 
+extern "C" ssize_t guarded_sendmsg(int socket, const msghdr* message, int flags) {
+  const auto guard = guard_of(socket);
+  const auto destination = guard && guard->is_secure() ? source_of(*message) : std::nullopt;
+  if (!destination) return real_sendmsg(socket, message, flags);
+  std::vector<std::uint8_t> bytes;
+  for (std::size_t i = 0; i < message->msg_iovlen; ++i) {
+    const auto* const part = static_cast<const std::uint8_t*>(message->msg_iov[i].iov_base);
+    bytes.insert(bytes.end(), part, part + message->msg_iov[i].iov_len);
+  }
+  if (guard->keeps_back(bytes, *destination)) return static_cast<ssize_t>(bytes.size());
+  return real_sendmsg(socket, message, flags);
+}
+
 void stand_before_the_sockets() {
   const void* const library = reinterpret_cast<const void*>(&dds_create_domain);
   void* const bind = replace_import(library, "bind", reinterpret_cast<void*>(&guarded_bind));
   real_bind = reinterpret_cast<decltype(real_bind)>(bind);
   void* const receive = replace_import(library, "recvmsg", reinterpret_cast<void*>(&guarded_recvmsg));
   real_recvmsg = reinterpret_cast<decltype(real_recvmsg)>(receive);
+  void* const send = replace_import(library, "sendmsg", reinterpret_cast<void*>(&guarded_sendmsg));
+  real_sendmsg = reinterpret_cast<decltype(real_sendmsg)>(send);
   void* const initialize = replace_import(library, "rtps_init", reinterpret_cast<void*>(&guarded_initialize));
   real_initialize = reinterpret_cast<decltype(real_initialize)>(initialize);
   void* const participant =
@@ -164,11 +182,12 @@ GuardedOpening::GuardedOpening(std::shared_ptr<guard::Guard> guard, std::optiona
                                bool secure) {
   static std::once_flag once;
   std::call_once(once, stand_before_the_sockets);
-  if (real_bind == nullptr || real_recvmsg == nullptr || real_initialize == nullptr ||
-      real_new_participant == nullptr || real_number == nullptr) {
+  if (real_bind == nullptr || real_recvmsg == nullptr || real_sendmsg == nullptr ||
+      real_initialize == nullptr || real_new_participant == nullptr || real_number == nullptr) {
     throw transport::TransportError(
         "this build of Cyclone DDS does not let its sockets be guarded (it imports no bind, "
-        "recvmsg, rtps_init, ddsi_new_participant or ddsi_iid_gen); use the library of Debian 12, or another "
+        "recvmsg, sendmsg, rtps_init, ddsi_new_participant or ddsi_iid_gen); use the library of Debian 12, "
+        "or another "
         "transport with --dds");
   }
   opening = Opening{std::move(guard), address, secure};

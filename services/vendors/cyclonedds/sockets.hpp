@@ -2,7 +2,7 @@
 //
 // Cyclone DDS 0.10 binds its receiving sockets to 0.0.0.0 whatever is configured (ddsi_udp.c: bind_to_any), so that
 // every host that reaches this one could speak to it. Here they are bound to the one configured address, and each
-// datagram passes a guard before its parser. Participants are named after the port that they send from.
+// datagram passes a guard before its parser, and in a secure run what is sent, too. Participants are named after the port that they send from.
 #pragma once
 
 #include <memory>

@@ -2,6 +2,8 @@
 
 #include <fastrtps/utils/IPLocator.h>
 
+#include <fastdds/rtps/common/LocatorList.hpp>
+
 namespace roci::services::vendors::fastdds {
 
 namespace transports = eprosima::fastdds::rtps;
@@ -20,7 +22,8 @@ std::optional<guard::Source> source_of(const Locator_t& locator) {
 
 class GuardedTransport : public transports::ChainingTransport {
  public:
-  GuardedTransport(const transports::ChainingTransportDescriptor& descriptor, std::shared_ptr<guard::Guard> guard)
+  GuardedTransport(const transports::ChainingTransportDescriptor& descriptor,
+                   std::shared_ptr<guard::Guard> guard)
       : ChainingTransport(descriptor),
         guard_(std::move(guard)),
         descriptor_(descriptor.low_level_descriptor) {}
@@ -30,7 +33,15 @@ class GuardedTransport : public transports::ChainingTransport {
   bool send(eprosima::fastrtps::rtps::SenderResource* sender, const octet* bytes, std::uint32_t size,
             transports::LocatorsIterator* begin, transports::LocatorsIterator* end,
             const std::chrono::steady_clock::time_point& deadline) override {
-    return sender->send(bytes, size, begin, end, deadline);
+    if (!guard_->is_secure()) return sender->send(bytes, size, begin, end, deadline);
+    eprosima::fastrtps::rtps::LocatorList_t admitted;
+    for (; *begin != *end; ++*begin) {
+      const auto destination = source_of(**begin);
+      if (!destination || !guard_->keeps_back({bytes, size}, *destination)) admitted.push_back(**begin);
+    }
+    if (admitted.empty()) return true;
+    eprosima::fastrtps::rtps::Locators first(admitted.begin()), last(admitted.end());
+    return sender->send(bytes, size, &first, &last, deadline);
   }
 
   // The bytes are in the receiving thread's own buffer; the vendor, too, changes them there.
@@ -50,7 +61,9 @@ class GuardedDescriptor : public transports::ChainingTransportDescriptor {
   GuardedDescriptor(std::shared_ptr<transports::TransportDescriptorInterface> udp,
                     std::shared_ptr<guard::Guard> guard)
       : ChainingTransportDescriptor(std::move(udp)), guard_(std::move(guard)) {}
-  transports::TransportInterface* create_transport() const override { return new GuardedTransport(*this, guard_); }
+  transports::TransportInterface* create_transport() const override {
+    return new GuardedTransport(*this, guard_);
+  }
 
  private:
   const std::shared_ptr<guard::Guard> guard_;

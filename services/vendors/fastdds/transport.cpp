@@ -43,7 +43,8 @@ class FastTransport : public transport::Transport, public transport::RefusesData
   explicit FastTransport(const transport::TransportOptions& options)
       : announcement_(options.announcement.value_or("")),
         secure_(options.credentials.has_value()),
-        guard_(std::make_shared<guard::Guard>(guard::policy_of(options))) {
+        guard_(std::make_shared<guard::Guard>(guard::policy_of(options))),
+        participants_(guard_) {
     if (options.vendor_xml.empty()) require_usable_addresses(options);
     switch_intraprocess_delivery_off();
     auto* factory = dds::DomainParticipantFactory::get_instance();

@@ -44,8 +44,7 @@ std::size_t Guard::admit(std::span<std::uint8_t> datagram, const std::optional<S
     return strip_vendor_submessages(datagram);
   }
   if (verdict == Verdict::pass) {
-    const std::size_t left = strip_plain_submessages(datagram.first(strip_vendor_submessages(datagram)));
-    if (left > 0) put_plain_submessages_first(datagram.first(left));
+    const std::size_t left = admit_secure(datagram.first(strip_vendor_submessages(datagram)));
     ++counts_[static_cast<std::size_t>(left > 0 ? Verdict::pass : Verdict::plain)];
     return left;
   }
@@ -53,6 +52,43 @@ std::size_t Guard::admit(std::span<std::uint8_t> datagram, const std::optional<S
   last_sources_[static_cast<std::size_t>(verdict)] = source;
   report(verdict, source);
   return 0;
+}
+
+// What is left of a message of a secure run.
+std::size_t Guard::admit_secure(std::span<std::uint8_t> message) {
+  const auto now = std::chrono::steady_clock::now();
+  const std::size_t left = strip_plain_submessages(message);
+  if (left == 0) return 0;
+  put_plain_submessages_first(message.first(left));
+  auto news = announcement_in(message.first(left));
+  if (!news && !silent_) return left;
+  const std::lock_guard lock(partings_mutex_);
+  if (news && partings_.announced(*std::move(news), now)) tell_of_parting();
+  silent_ = partings_.any_silence(now);
+  return partings_.is_deaf_to(sender_of(message), now) ? 0 : left;
+}
+
+bool Guard::keeps_back(std::span<const std::uint8_t> datagram, const Source& destination) {
+  if (!policy_.secure || datagram.size() <= kHeaderSize) return false;
+  const bool encrypted = datagram[kHeaderSize] == kEncryptionPrefix;
+  if (encrypted && !silent_) return false;
+  const auto now = std::chrono::steady_clock::now();
+  const std::lock_guard lock(partings_mutex_);
+  if (!encrypted) partings_.sent(datagram, now);
+  return partings_.keeps_back(destination, now);
+}
+
+void Guard::gave_up(const GuidPrefix& other) {
+  if (!policy_.secure) return;
+  const std::lock_guard lock(partings_mutex_);
+  partings_.gave_up(other, std::chrono::steady_clock::now());
+}
+
+void Guard::tell_of_parting() {
+  std::cerr
+      << "a participant of this secure run was given up and is still there; nothing is said to it for " +
+             std::to_string(Partings::kSilence.count()) + " s, so that both shake hands anew\n"
+      << std::flush;
 }
 
 // The sender comes first: of a stranger nothing is read.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstdint>
 #include <mutex>
 #include <optional>
@@ -13,6 +14,7 @@
 #include "services/transport/transport.hpp"
 #include "services/vendors/guard/identities.hpp"
 #include "services/vendors/guard/message.hpp"
+#include "services/vendors/guard/partings.hpp"
 
 namespace roci::services::vendors::guard {
 
@@ -35,6 +37,12 @@ class Guard {
   /// is missing where it has no IPv4 address.
   std::size_t admit(std::span<std::uint8_t> datagram, const std::optional<Source>& source);
 
+  bool is_secure() const { return policy_.secure; }
+  /// In a secure run: takes in what this process sends, and says whether nothing may be sent to this destination now (partings.hpp).
+  bool keeps_back(std::span<const std::uint8_t> datagram, const Source& destination);
+  /// In a secure run: the vendor has given this participant up.
+  void gave_up(const GuidPrefix&);
+
   /// How many datagrams had each verdict.
   std::array<std::uint64_t, kVerdicts> counts() const;
   /// The same for operators, without those that passed and those that were left out as plain text.
@@ -42,7 +50,9 @@ class Guard {
 
  private:
   Verdict judge(std::span<const std::uint8_t> datagram, const std::optional<Source>&);
+  std::size_t admit_secure(std::span<std::uint8_t> message);
   void report(Verdict, const std::optional<Source>&);
+  static void tell_of_parting();
 
   const Policy policy_;
   mutable std::mutex mutex_;
@@ -51,6 +61,11 @@ class Guard {
   std::array<std::optional<Source>, kVerdicts> last_sources_{};
   std::array<std::uint64_t, kVerdicts> reported_{};
   std::optional<Identities::Time> last_report_;
+
+  // What is encrypted, both ways, passes this lock by as long as there is no silence.
+  std::mutex partings_mutex_;
+  Partings partings_;
+  std::atomic<bool> silent_ = false;
 };
 
 }  // namespace roci::services::vendors::guard

@@ -9,12 +9,11 @@
 namespace roci::services::vendors::guard {
 namespace {
 
-constexpr std::size_t kHeaderSize = 20;
 constexpr std::size_t kSubmessageHeaderSize = 4;
 constexpr std::uint8_t kFirstVendorId = 0x80;
 constexpr std::uint8_t kPad = 0x01;
 constexpr std::uint8_t kInfoTimestamp = 0x09, kInfoDestination = 0x0e;
-constexpr std::uint8_t kEncryptedBody = 0x30, kEncryptionPrefix = 0x33, kEncryptionPostfix = 0x34;
+constexpr std::uint8_t kEncryptedBody = 0x30, kEncryptionPostfix = 0x34;
 constexpr std::uint8_t kData = 0x15, kDataFragment = 0x16;
 
 // Where a submessage ends, seen from its own beginning; 0 if it reaches over the end of the message.
@@ -103,6 +102,17 @@ GuidPrefix sender_of(std::span<const std::uint8_t> message) {
   GuidPrefix prefix;
   std::copy_n(message.begin() + 8, prefix.size(), prefix.begin());
   return prefix;
+}
+
+void for_each_submessage(std::span<const std::uint8_t> message,
+                         const std::function<void(const Submessage&)>& see) {
+  for (auto rest = message.subspan(kHeaderSize); !rest.empty();) {
+    const std::size_t size = size_of_first(rest);
+    if (size == 0) return;
+    see({rest[0], rest[1],
+         ByteView{rest.subspan(kSubmessageHeaderSize, size - kSubmessageHeaderSize), (rest[1] & 1) != 0}});
+    rest = rest.subspan(size);
+  }
 }
 
 std::size_t strip_vendor_submessages(std::span<std::uint8_t> message) {

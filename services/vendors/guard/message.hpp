@@ -2,12 +2,18 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 
 #include "services/vendors/guard/parameters.hpp"
+#include "services/vendors/guard/submessages.hpp"
 #include "services/vendors/guard/verdict.hpp"
 
 namespace roci::services::vendors::guard {
+
+inline constexpr std::size_t kHeaderSize = 20;  ///< of an RTPS message
+/// SRTPS_PREFIX: what follows is encrypted as a whole.
+inline constexpr std::uint8_t kEncryptionPrefix = 0x33;
 
 /// A message that passes is well-formed down to its submessages (RTPS 2.3, 8.3 and 9.4), claims no sample over
 /// kMaxSampleBytes, and speaks in discovery for its sender alone. What DDS Security has encrypted passes as it is; payloads
@@ -16,6 +22,10 @@ Verdict examine(std::span<const std::uint8_t> datagram);
 
 /// The participant that a message says it is from. It must have an RTPS header.
 GuidPrefix sender_of(std::span<const std::uint8_t> message);
+
+/// Calls `see` with each submessage of a message that has an RTPS header, in its order, up to the first one that does not fit.
+void for_each_submessage(std::span<const std::uint8_t> message,
+                         const std::function<void(const Submessage&)>& see);
 
 /// Takes the vendors' own submessages (ids from 0x80 on) out of a message that passed and returns its new length. Nobody
 /// here needs them: Fast DDS adds statistics to each of its messages, and Debian's build aborts when it reads unlikely

@@ -2,6 +2,9 @@
 // nobody else. The goal is a topic that the ground (`roci`) and science_svc may write, and the executive may read.
 #include <gmock/gmock.h>
 
+#include <filesystem>
+#include <fstream>
+
 #include "services/node.hpp"
 #include "services/node/node_impl.hpp"
 #include "services/publisher.hpp"
@@ -91,6 +94,47 @@ TEST_P(Secure, AHandshakeEndsWhateverItsEndIsPackedWith) {
   writer.send("write ground photo 1");
   EXPECT_TRUE(reader.wait_for("goal ground photo 1", kPatience));
 }
+
+// Whom nobody heard for longer than its lease, while it heard all others, shakes hands anew.
+class OnceUnheard : public Secure {
+ protected:
+  ChildProcess mutable_one(const std::string& vendor, const std::string& role,
+                           const std::string& service) const {
+    auto environment = peer_keys(ring_.path(), service);
+    environment.emplace_back("LD_PRELOAD=" ROCI_MUTE);
+    environment.emplace_back("ROCI_MUTE=" + silence_.string());
+    return ChildProcess(peer_command(vendor, role, domain_.id()), environment);
+  }
+  // Until `other` has given it up.
+  void mute_until_lost(ChildProcess& other) const {
+    std::ofstream{silence_};
+    ASSERT_TRUE(other.wait_for("matched 0", kPatience));
+    std::filesystem::remove(silence_);
+  }
+  const std::filesystem::path silence_ = ring_.path() + "/silence";
+};
+
+TEST_P(OnceUnheard, AWriterIsHeardAgain) {
+  ChildProcess reader = certified(GetParam().reader, "goal-reader", "exec_svc");
+  ChildProcess writer = mutable_one(GetParam().writer, "goal-writer", "roci");
+  writer.send("write ground photo 1");
+  ASSERT_TRUE(reader.wait_for("goal ground photo 1", kPatience));
+  mute_until_lost(reader);
+  writer.send("write ground again 1");
+  EXPECT_TRUE(reader.wait_for("goal ground again 1", 2 * kPatience));
+}
+
+TEST_P(OnceUnheard, AReaderHearsAgain) {
+  ChildProcess reader = mutable_one(GetParam().reader, "goal-reader", "exec_svc");
+  ChildProcess writer = certified(GetParam().writer, "goal-writer", "roci");
+  writer.send("write ground photo 1");
+  ASSERT_TRUE(reader.wait_for("goal ground photo 1", kPatience));
+  mute_until_lost(writer);
+  writer.send("write ground again 1");
+  EXPECT_TRUE(reader.wait_for("goal ground again 1", 2 * kPatience));
+}
+
+INSTANTIATE_TEST_SUITE_P(Vendors, OnceUnheard, kEveryNetworkPairing, pairing_name);
 
 // Its own library refuses it, with the documents that it was given.
 TEST_P(Secure, ACertificateWithTheWrongRightsOpensNoWriter) {

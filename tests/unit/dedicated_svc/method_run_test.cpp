@@ -135,6 +135,53 @@ TEST(MethodRun, ARepairRunsAndGoesOnWhereItSays) {
   EXPECT_EQ(step.end->energy_j, 110) << "what the failed try drew counts, too";
 }
 
+TEST(MethodRun, ARepairMayEndTheMethod) {
+  constexpr char kText[] = R"(
+dedicated:
+  timeline: t
+  subsystem: s
+  methods:
+    Go:
+      calls:
+        - {name: way, observe: {timeline: way}}
+        - {name: drive, command: {owner: o, subsystem: nav, name: drive}}
+        - {name: look, command: {owner: o, subsystem: eye, name: look}}
+      repairs:
+        drive.blocked: {calls: [{name: around, command: {owner: o, subsystem: nav, name: around}}], then: end}
+      during: [going]
+      results: {x: "{way.x}"}
+      then: [there]
+)";
+  const Methods methods = methods::read_methods(mission::Entry::parse(kText, "m").at("dedicated"));
+  MethodRun run(methods.methods.at("Go"), {});
+  EXPECT_EQ(asked(run.begin()), "1 way");
+  EXPECT_EQ(asked(run.take(numbers({{"x", 2}}), {})), "2 drive");
+  EXPECT_EQ(asked(run.take(error("blocked"), {})), "3 around");
+  EXPECT_EQ(run.repairing(), "drive: as told");
+  Answer around;
+  around.energy_j = 5;
+  const Step step = run.take(around, {});
+  ASSERT_TRUE(step.end) << "nothing is called after it";
+  EXPECT_EQ(step.end->error, "");
+  EXPECT_EQ(step.end->values, (std::map<std::string, temporal::Value>{{"x", 2.0}}));
+  EXPECT_EQ(step.end->energy_j, 15);
+  EXPECT_EQ(run.repairing(), "");
+  EXPECT_EQ(run.then(methods.rest), state("there"));
+
+  MethodRun failed(methods.methods.at("Go"), {});
+  failed.begin();
+  failed.take(numbers({{"x", 2}}), {});
+  failed.take(error("blocked"), {});
+  const Step end = failed.take(error("stalled"), {});
+  ASSERT_TRUE(end.end);
+  EXPECT_EQ(end.end->error, "blocked") << "a repair that fails ends it as failed";
+
+  // What one process had taken another one comes to the end with.
+  MethodRun again(methods.methods.at("Go"), {});
+  EXPECT_EQ(asked(again.begin_after({{numbers({{"x", 2}}), {}}, {error("blocked"), {}}})), "3 around");
+  EXPECT_TRUE(again.take({}, {}).end);
+}
+
 TEST(MethodRun, AnErrorThatIsNotRepairedAnyMoreStands) {
   MethodRun run(example().methods.at("Traverse"), {{"wp", "w3"}});
   run.begin();

@@ -60,7 +60,18 @@ TEST(MethodsFile, RefusesWhatCannotBeMeant) {
        "stands twice"},
       {"      calls: [" + std::string(kCall) +
            "]\n      repairs: {e: {calls: [{name: b, observe: {timeline: t}}], then: z}}\n",
-       "the method has no call 'z'"},
+       "the method has no call 'z' to go on with; 'end' ends the method"},
+      {"      calls: [{name: end, wait_s: 1}]\n"
+       "      repairs: {e: {calls: [{name: b, wait_s: 1}], then: end}}\n",
+       "mission.yaml:7:58: 'end' ends the method, which has a call of that name, too"},
+      {"      calls: [{name: a, wait_s: 1}, {name: b, wait_s: 1}]\n"
+       "      repairs: {b.e: {calls: [{name: c, wait_s: 1}], then: end}}\n"
+       "      results: {x: \"{b.y}\"}\n",
+       "mission.yaml:8:20: the repair of 'b.e' ends the method"},
+      {"      calls: [{name: a, wait_s: 1}, {name: b, wait_s: 1}]\n"
+       "      repairs: {e: {calls: [{name: c, wait_s: 1}], then: end}}\n"
+       "      results: {x: \"{a.y}\"}\n",
+       "the repair of 'e' ends the method"},
       {"      calls: [" + std::string(kCall) +
            "]\n      repairs: {e: {calls: [{name: b, observe: {timeline: t}}], at_most: 0}}\n",
        "'at_most' must be from 1 to"},
@@ -86,6 +97,15 @@ TEST(MethodsFile, RefusesWhatCannotBeMeant) {
   for (const auto& [method, words] : cases) EXPECT_THAT(fault(method), HasSubstr(words)) << method;
   EXPECT_THAT(fault("      calls: [" + std::string(kCall) + "]\n", "subsystem: loco\n"),
               HasSubstr("timeline"));
+}
+
+TEST(MethodsFile, ARepairMayEndTheMethodWhereItsResultsAreThere) {
+  EXPECT_EQ(fault("      calls: [{name: a, wait_s: 1}, {name: b, wait_s: 1}]\n"
+                  "      repairs: {b.e: {calls: [{name: c, wait_s: 1}], then: end}}\n"
+                  "      results: {x: \"{a.y}\"}\n"),
+            "");
+  EXPECT_EQ(fault("      calls: [{name: end, wait_s: 1}, {name: b, wait_s: 1}]\n"), "")
+      << "a call may have the name where no repair does";
 }
 
 TEST(MethodsFile, AMethodIsNotCalledStop) {

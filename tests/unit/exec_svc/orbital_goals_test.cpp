@@ -81,6 +81,31 @@ TEST_F(OrbitalGoals, LeaveNothingBehindWhenTheyHaveEnded) {
   EXPECT_THAT(problem.text, HasSubstr("(wanted camera-1 s4)"));
 }
 
+GoalRequest replace(const std::string& module) {
+  GoalRequest out;
+  out.key = {"ground", "replace-" + module};
+  out.kind = "replace";
+  out.arguments = {{"module", module}};
+  return out;
+}
+
+// An engine that proves such a goal out of reach says so by its text: it is the one that leaves, and no other.
+TEST_F(OrbitalGoals, WhatTimelinesCannotSayIsOneFactByItsText) {
+  beliefs::Beliefs beliefs(mission);
+  beliefs.observe("walker.arm", state("idle-pose", {"home"}));
+  goals.submit(replace("camera-1"), temporal::Time{0});
+  goals.submit(install("radar-1", "s3"), temporal::Time{0});
+  const problem::Problem problem =
+      problem::write_problem(mission, beliefs, goals, "p", temporal::Time{0}, temporal::Time{0});
+  ASSERT_EQ(problem.goals.size(), 2U);
+  ASSERT_EQ(problem.goals[0].achieved.nodes.size(), 1U);
+  const std::string& text = problem.goals[0].achieved.nodes[0].timeline;
+  EXPECT_THAT(text,
+              ::testing::StartsWith("(exists (?b - module ?s - socket ?r - role) (and (seat camera-1 ?s)"));
+  EXPECT_THAT(problem.text, HasSubstr(text)) << "the engine prints it from here";
+  EXPECT_EQ(temporal::describe(problem.goals[1].achieved), "(installed radar-1 s3) = true");
+}
+
 // The mission's files with one text of one of them changed; what reading them says.
 std::string fault_with(const std::string& right, const std::string& wrong) {
   const fs::path folder = fs::temp_directory_path() / ("roci_orbital_" + std::to_string(::getpid()));

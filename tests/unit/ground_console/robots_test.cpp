@@ -225,12 +225,14 @@ TEST(Robots, StandInTheStatusSideBySideWithTheirMaps) {
 }
 
 TEST(Robots, StandInTheTextOfTheStatus) {
-  EXPECT_EQ(cli::robots_text(two_rovers()), R"(
+  cli::MissionWords words;
+  words.units["*"] = "J";
+  EXPECT_EQ(cli::robots_text(two_rovers(), words), R"(
 Robots
   primary   standby   x 6.0 y 15.0 m
     locomotion        at w0
     map               version 2: 1 obstacle (1 soil of scout), took version 2 of scout.path at 00:01:36
-  scout   x 10.0 y 15.0 m, heading 90°   battery 350000
+  scout   x 10.0 y 15.0 m, heading 90°   battery 350 kJ
     locomotion        scouting w0 w1
     nav               driving
     map               version 3: 2 obstacles (1 rock of scout, 1 soil of scout), told version 2 at 00:01:35

@@ -72,6 +72,34 @@ TEST(Course, HasStatesPlansAndRepairsOfATrace) {
   EXPECT_EQ(course().end_us, 70'000'000);
 }
 
+// A cycle of a longer way on one timeline, then a state that stays; the drive is commanded, and its owner tells of it.
+TEST(Course, HasTheStatesAboveTheCommands) {
+  std::istringstream trace(
+      "0 step p1.1-navigation.team(w0, w9) 0 [0,-1] \n"
+      "10 step p1.1-navigation.team(w0, w9) 2 [10,10] \n"
+      "20 step p1.2-navigation.cycle(w0, w1) 2 [20,20] \n"
+      "20 command p1.3-wheels.going(w0, w1) 1 action=0 rover wheels Go to=w1\n"
+      "20 step p1.3-wheels.going(w0, w1) 2 [20,20] \n"
+      "20 step p1.5-take-image(2.5) 2 [20,20] \n"
+      "30 step p1.3-wheels.going(w0, w1) 3 [20,20] \n"
+      "30 step p1.2-navigation.cycle(w0, w1) 3 [20,20] \n"
+      "40 step p1.1-navigation.team(w0, w9) 3 [10,10] \n"
+      "50 step p1.4-mission.traversed(w9) 2 [50,50] \n"
+      "50 step p1.4-mission.traversed(w9) 3 [50,50] \n"
+      "90 observation rover.nav idle sampled 90\n");
+  const Course out = course_of(trace);
+  ASSERT_EQ(out.rows.size(), 3U);
+  const auto text = [](const Row& row) {
+    std::string all = row.timeline;
+    for (const Held& held : row.held)
+      all += " " + held.value + " " + std::to_string(held.from_us) + "-" + std::to_string(held.to_us);
+    return all;
+  };
+  EXPECT_EQ(text(out.rows[0]), "navigation team(w0, w9) 10-20 cycle(w0, w1) 20-30 team(w0, w9) 30-40");
+  EXPECT_EQ(text(out.rows[1]), "mission traversed(w9) 50-90") << "it was come to, and nothing has changed it";
+  EXPECT_EQ(out.rows[2].timeline, "rover.nav");
+}
+
 TEST(Course, HasRowsOfTheTeamFirstThenByRobotAndWhatIsToCome) {
   Course out = course();
   add_planned("primary.locomotion", {{80'000'000, "following(w0, w1)"}}, 90'000'000, out);

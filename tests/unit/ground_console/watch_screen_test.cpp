@@ -70,19 +70,29 @@ TEST(WatchScreen, ShowsAMissionInFlight) {
 }
 
 TEST(WatchScreen, DrawsTheNumbersOfThePlanAsCurves) {
-  const std::vector<cli::watch::Level> levels{{"(battery)", {{200'000'000, -500}, {335'000'000, -2000}}},
-                                              {"(memory)", {{335'000'000, 4}}}};
+  const std::vector<cli::watch::Level> levels{{"(battery)", {{200'000'000, -500}, {335'000'000, -2000}}, 0},
+                                              {"(memory)", {{335'000'000, 4}}, 0}};
+  cli::MissionWords words;
+  words.units["(battery)"] = "J";
   cli::watch::Canvas canvas(36 + 24, 3);
-  cli::watch::draw_levels(flying_mission(), levels, {0, 0, 60, 3}, canvas);
+  cli::watch::draw_levels(flying_mission(), levels, words, {0, 0, 60, 3}, canvas);
   EXPECT_THAT(lines_of(canvas.plain()),
-              ::testing::ElementsAre("Levels, as changes since the plan began",
-                                     "    (battery) -500 → -2000          █████████▆▆▆▆▆▆▆▆▆▆▆▆▆▆▁",
+              ::testing::ElementsAre("Levels, now → at the end of the plan",
+                                     "    (battery) -500 J → -2 kJ        █████████▆▆▆▆▆▆▆▆▆▆▆▆▆▆▁",
                                      "    (memory) 0 → 4                  ▁▁▁▁▁▁▁▁▁▁▁▁▁▁▁▁▁▁▁▁▁▁▁█"));
+}
+
+TEST(WatchScreen, TellsAmountsInTheirUnits) {
+  EXPECT_EQ(cli::amount_text(754'702, "J"), "755 kJ");
+  EXPECT_EQ(cli::amount_text(999.6, "W"), "1 kW");
+  EXPECT_EQ(cli::amount_text(-1'250'000, "B"), "-1.25 MB");
+  EXPECT_EQ(cli::amount_text(0.25, "m"), "0.25 m");
+  EXPECT_EQ(cli::amount_text(12, ""), "12");
 }
 
 TEST(WatchScreen, LeavesCurvesOutThatDoNotFit) {
   cli::watch::Canvas canvas(60, 3);
-  cli::watch::draw_levels(flying_mission(), {{"(battery)", {{0, 1}}}}, {0, 0, 60, 1}, canvas);
+  cli::watch::draw_levels(flying_mission(), {{"(battery)", {{0, 1}}, 0}}, {}, {0, 0, 60, 1}, canvas);
   EXPECT_THAT(canvas.plain(), Not(HasSubstr("battery")));
 }
 

@@ -101,6 +101,17 @@ TEST(Projection, AnObservationShowsWhatWasExecutedBeforeItAlone) {
               ElementsAre("planned 110 true", "executed 110 true", "executed 112 false"));
 }
 
+// The drive has taken 2 a second for 50 s, so the plan began with 750.
+TEST(Projection, WhatAPlanBeganWithIsReckonedBackFromTheObservation) {
+  Progress progress;
+  progress["drive"] = {ActivityState::running, seconds(10), {}};
+  const ObservedValues observed{{"energy", {seconds(60), 650.0}}};
+  const auto out = project(drive_and_image(), progress, seconds(70), {}, observed);
+  EXPECT_THAT(words(out.at("energy")),
+              ElementsAre("planned 10 750", "planned 110 550", "planned 111 500", "executed 10 750",
+                          "executed 60 650", "projected 110 550", "projected 111 500"));
+}
+
 TEST(Projection, AnObservationOfAPlanThatHasNotBegunIsWhereItStarts) {
   const ObservedValues observed{{"energy", {seconds(5), 500.0}}, {"untouched", {seconds(5), 1.0}}};
   const auto out = project(drive_and_image(), {}, seconds(10), {}, observed);

@@ -97,6 +97,15 @@ TEST(PddlEngine, WhatIsOutOfReachIsNamedByIssuerAndId) {
               ElementsAre(BlockingGoal{"ground", "fly", "(flown)", "no sequence of actions reaches it"}));
 }
 
+// A goal that no timeline can say is named by its text (problem_writer of exec_svc).
+TEST(PddlEngine, AFormulaOutOfReachIsNamedAndNoOtherGoal) {
+  const std::string formula = "(exists (?p - place) (and (at ?p) (flown)))";
+  const Answer answer = answer_to(request_for({goal_of("one", "(seen b)"), goal_of("fly", formula)}));
+  EXPECT_EQ(answer.verdict, Verdict::unsolvable);
+  EXPECT_THAT(answer.blocking,
+              ElementsAre(BlockingGoal{"ground", "fly", formula, "no sequence of actions reaches it"}));
+}
+
 TEST(PddlEngine, ABadProblemIsToldAndKept) {
   Request request = request_for({});
   request.problem_text = "(define (problem";

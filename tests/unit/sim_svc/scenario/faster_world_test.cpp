@@ -50,7 +50,7 @@ TEST(FasterWorld, TheScoutJudgesForThePrimaryAsItIs) {
 }
 
 TEST(FasterWorld, IsReadWithItsRoversAndItsTrap) {
-  const RunSetup run = load_run(kFaster, "nominal", components::standard_types());
+  const RunSetup run = load_run(kFaster, "yard", components::standard_types());
   ASSERT_EQ(run.world.robots.size(), 2U);
   EXPECT_TRUE(world::soil_at(run.world.ground.surface.soil, {11, 15}));
   EXPECT_EQ(run.world.ground.site->occupancy(terrain::Point{11, 15}), terrain::Occupancy::free)

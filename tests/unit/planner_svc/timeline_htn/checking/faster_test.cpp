@@ -140,6 +140,27 @@ TEST(FasterModel, ClosedLegsAreGoneRoundWithoutASearch) {
   EXPECT_EQ(plan({{"v6", "w5"}, {"w2", "w3"}, {"u3", "u4"}}), search::Outcome::solved);
 }
 
+// All legs are closed but one far off, at which routes begin: nothing takes the rovers there, which is proved and said.
+TEST(FasterModel, WhereTheOnlyLegLeftIsFarOffThatIsProved) {
+  for (const std::string problem : {"problem", "scout_lost", "hazard_detected", "scout_no_path"}) {
+    model::Model model = load("missions/faster/" + problem + ".yaml");
+    auto& legs = std::ranges::find(model.relations, "leg", &model::Relation::name)->rows;
+    const auto far = [&](const std::vector<Index>& row) {
+      return model.objects[row[0]].name == "right_on" && model.objects[row[1]].name == "w8";
+    };
+    std::erase_if(legs, [&](const auto& row) { return !far(row); });
+    ASSERT_EQ(legs.size(), 1U);
+    search::Search search(model, search::Resolver{});
+    ASSERT_EQ(search.run(100'000, 64U << 20U, [] { return false; }), search::Outcome::exhausted) << problem;
+    EXPECT_THAT(search.reason(),
+                testing::HasSubstr("for mission.traversing(w9) asks for primary_locomotion.at(w8), and that "
+                                   "timeline comes to primary_locomotion.at("))
+        << problem;
+    ASSERT_LT(search.blocking_goal(), model.problem->goals.size()) << problem;
+    EXPECT_EQ(model.problem->goals[search.blocking_goal()].id, "long_traverse") << problem;
+  }
+}
+
 // R138: each of them missing, the traverse as a team does not apply.
 TEST(FasterModel, ATraverseAsATeamNeedsFormationAndTheUplink) {
   const auto planned = [](const std::string& component, const std::string& state) {

@@ -260,9 +260,11 @@ TEST(TimelineSearch, WhatCannotBeIsProvedWithItsReason) {
           with(kBehaviours, "conditions: [wheels.at(from)]\n    subgoals: {drive: \"wheels.drive(from, to)",
                "conditions: [not wheels.at(from)]\n    subgoals: {drive: \"wheels.drive(from, to)"),
           with(with(kProblem, "mission.visit(a, d)", "mission.visit(c, d)"), "at(a)", "at(c)")),
-      HasSubstr("behaviour 'last' for mission.visit(c, d) asks for not wheels.at(from), and the timeline"));
+      HasSubstr("behaviour 'last' for mission.visit(c, d) asks for not wheels.at(c), and that timeline comes "
+                "to wheels.at(c) "
+                "alone"));
   EXPECT_THAT(reason(kBehaviours, with(kProblem, "wheels: at(a)", "wheels: at(d)")),
-              HasSubstr("wheels.at(from)"));
+              HasSubstr("asks for wheels.at(a), and that timeline comes to wheels.at(d) alone"));
 }
 
 // A node's next value is the one that may start the earliest, and each timeline grows at its end.

@@ -122,6 +122,28 @@ TEST_F(DeliveryTest, ADownlinkThatRunsHasOnlyWhatIsLeftOfItsTime) {
   EXPECT_THAT(sent(begun + 13s), ElementsAre("second"));
 }
 
+TEST_F(DeliveryTest, WhatIsBeingSentKeepsItsRoomThoughItTakesLongerThanIsLeft) {
+  task("dig").products.clear();
+  start();
+  delivery_->hear(stored("first", Tier::mandatory, 120));
+  delivery_->hear(stored("second", Tier::mandatory, 80));
+  delivery_->hear(stored("left over", Tier::residual, 60));
+  planned();
+  const search::PlannedData one{{}, {cycle_->data().downlinks.front()}, 0, 0};
+  const Time begun = one.downlinks.front().start;
+  delivery_->told({{one.downlinks.front().id, {"first", "second"}}});
+  Existing first = stored("first", Tier::mandatory, 120);
+  first.fate = Fate::sent;
+  delivery_->hear(first, begun + 13s);  // 70 bytes are left, 80 are being sent
+  const Schedule plan = delivery_->schedule(one, cycle_->past().values, begun + 14s);
+  EXPECT_THAT(plan.downlinks.front().products, ElementsAre("second"));
+  EXPECT_EQ(plan.downlinks.front().bytes, 80U);
+  EXPECT_EQ(plan.downlinks.front().takes, 8s);
+  ASSERT_THAT(plan.left_out, SizeIs(1));
+  EXPECT_EQ(plan.left_out.front().product, "left over");
+  EXPECT_TRUE(plan.products.at("second").exists);
+}
+
 TEST_F(DeliveryTest, TiersGoInTheirOrderWhenThereIsTooLittleRoom) {
   network_.parameters.back().prior = 5;  // 100 bytes in each of the two downlinks
   task("dig").products.clear();

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "planner_svc/utility_htn/cli/first_plan.hpp"
 #include "planner_svc/utility_htn/flattening/chain.hpp"
 #include "planner_svc/utility_htn/model/describe.hpp"
 #include "planner_svc/utility_htn/reading/load.hpp"
@@ -214,6 +215,30 @@ TEST(EuropaNetworks, RawDataAreWorthAndCostMoreThanCompressedOnes) {
     const Europa mission(file);
     EXPECT_GT(mission.utility("sample_0_1/first/raw"), mission.utility("sample_0_1/first/compressed"));
     EXPECT_GT(mission.cost("sample_0_1/first/raw"), mission.cost("sample_0_1/first/compressed"));
+  }
+}
+
+// R91: while there is energy for it samples go raw; where there is less, as many are compressed as must be so that all fit.
+TEST(EuropaNetworks, PlansSwitchToCompressedDataWhereTheBudgetAsksForIt) {
+  const Europa rsm("network-rsm1.yaml");
+  const std::string raw = "/raw", compressed = "/compressed";
+  const auto samples = [&](const cli::FirstPlan& plan, const std::string& form) {
+    std::vector<std::string> out;
+    for (const cli::PlannedTask& one : plan.planned)
+      if (one.chain.starts_with("sample_") && one.chain.ends_with(form)) out.push_back(one.chain);
+    return out;
+  };
+  const cli::FirstPlan ample = cli::first_plan(rsm.network, {.initial = {{"lander.battery", 120e6}}});
+  EXPECT_TRUE(ample.complete);
+  EXPECT_EQ(samples(ample, raw).size(), 6U);
+  EXPECT_EQ(samples(ample, compressed).size(), 0U);
+  const cli::FirstPlan scarce = cli::first_plan(rsm.network, {.initial = {{"lander.battery", 105e6}}});
+  EXPECT_TRUE(scarce.complete);
+  EXPECT_GT(samples(scarce, raw).size(), 0U);
+  EXPECT_GT(samples(scarce, compressed).size(), 0U);
+  for (const std::string& chain : samples(scarce, compressed)) {
+    const std::string dearer = chain.substr(0, chain.size() - compressed.size()) + raw;
+    EXPECT_GT(scarce.cost + rsm.cost(dearer) - rsm.cost(chain), scarce.budget) << chain << " had room";
   }
 }
 
