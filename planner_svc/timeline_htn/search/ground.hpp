@@ -58,7 +58,7 @@ class Ground {
   std::vector<StateId> reachable(StateId from);
   /// Returns whether a state is one of the pattern's, where variables that are kNone fit all.
   bool fits(StateId state, const model::Pattern& pattern, std::span<const Index> bound) const;
-  /// Returns the components that bringing about some state of this one may touch or look at.
+  /// Returns the components that bringing about some state of this one may touch or look at; what no plan changes is none of them.
   ComponentSet footprint(Index component) const { return footprints_[component]; }
   /// Returns every way to give variables from `from` on an object of their type so that the tests hold.
   std::vector<std::vector<Index>> bindings(const std::vector<model::Variable>& variables,
