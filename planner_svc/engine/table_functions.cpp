@@ -1,8 +1,7 @@
-#include "planner_svc/temporal_pddl/cli/table_functions.hpp"
+#include "planner_svc/engine/table_functions.hpp"
 
-namespace roci::planner::temporal_pddl::cli {
+namespace roci::planner::engine {
 
-using engine::FunctionCall, engine::FunctionOutcome, engine::FunctionValue;
 using temporal::FunctionAccuracy;
 
 std::vector<FunctionValue> TableFunctions::evaluate(std::span<const FunctionCall> calls,
@@ -34,4 +33,4 @@ FunctionValue TableFunctions::answer(const FunctionCall& call) const {
   return answer;
 }
 
-}  // namespace roci::planner::temporal_pddl::cli
+}  // namespace roci::planner::engine

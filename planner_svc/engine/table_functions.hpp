@@ -6,23 +6,23 @@
 #include "core/pddl/function_table.hpp"
 #include "planner_svc/engine/function_source.hpp"
 
-namespace roci::planner::temporal_pddl::cli {
+namespace roci::planner::engine {
 
 /// Gives exact values where no lower bound stands in the tables; tuples that are not in them are unavailable.
 /// `owner` is given as who says so.
-class TableFunctions final : public engine::FunctionSource {
+class TableFunctions final : public FunctionSource {
  public:
   TableFunctions(pddl::FunctionTables tables, std::string owner)
       : tables_(std::move(tables)), owner_(std::move(owner)) {}
 
-  std::vector<engine::FunctionValue> evaluate(std::span<const engine::FunctionCall> calls,
-                                              const std::function<bool()>& cancelled) override;
+  std::vector<FunctionValue> evaluate(std::span<const FunctionCall> calls,
+                                      const std::function<bool()>& cancelled) override;
 
  private:
-  engine::FunctionValue answer(const engine::FunctionCall& call) const;
+  FunctionValue answer(const FunctionCall& call) const;
 
   pddl::FunctionTables tables_;
   std::string owner_;
 };
 
-}  // namespace roci::planner::temporal_pddl::cli
+}  // namespace roci::planner::engine
