@@ -33,4 +33,20 @@ FunctionValue TableFunctions::answer(const FunctionCall& call) const {
   return answer;
 }
 
+pddl::FunctionTables tables_of(std::span<const FunctionUse> uses) {
+  pddl::FunctionTables tables;
+  for (const FunctionUse& use : uses) {
+    const bool has_value = use.answer.outcome == FunctionOutcome::value;
+    if (use.answer.outcome == FunctionOutcome::unknown) {
+      tables.unknown.insert(application(use.call));
+    } else if (has_value && !use.answer.is_exact()) {
+      tables.lower_bounds.emplace(application(use.call), use.answer.value);
+    } else {
+      pddl::put(tables.exact, use.call.function, use.call.arguments,
+                has_value ? std::optional(use.answer.value) : std::nullopt);
+    }
+  }
+  return tables;
+}
+
 }  // namespace roci::planner::engine

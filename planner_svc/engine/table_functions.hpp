@@ -1,7 +1,9 @@
 // Values of external functions from a table instead of a service.
 #pragma once
 
+#include <span>
 #include <string>
+#include <vector>
 
 #include "core/pddl/function_table.hpp"
 #include "planner_svc/engine/function_source.hpp"
@@ -24,5 +26,9 @@ class TableFunctions final : public FunctionSource {
   pddl::FunctionTables tables_;
   std::string owner_;
 };
+
+/// Returns what owners said as such a table, by which a call can be made again without them. What has no value otherwise stands in it as
+/// unreachable.
+pddl::FunctionTables tables_of(std::span<const FunctionUse> uses);
 
 }  // namespace roci::planner::engine

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "planner_svc/engine/table_functions.hpp"
 #include "planner_svc/timeline_htn/adapter/owners_values.hpp"
 #include "planner_svc/timeline_htn/extraction/plan_of.hpp"
 #include "planner_svc/timeline_htn/model/check.hpp"
@@ -123,6 +124,7 @@ Answer TimelineEngine::answer(const Request& request, const Limits& limits, Func
   Answer out = answer_of(request, *model, resolution, out_of_time);
   if (out.plan) out.plan->function_values = values_of(*resolution.search, *out.plan, asked.uses);
   explain(out, *model, request, asked.uses);
+  if (!asked.uses.empty()) out.record = {{".values", pddl::print(engine::tables_of(asked.uses))}};
   for (const auto& finding : findings.all()) out.warnings.push_back(finding.text());
   return out;
 }
