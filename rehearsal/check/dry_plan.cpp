@@ -167,7 +167,7 @@ std::string arguments_text(const GoalRequest& goal) {
   return out.empty() ? "" : " with" + out;
 }
 
-// The words of an owner of functions end with who says so (adapter/owners_verdicts); others are the planner's own.
+// The words of an owner of functions end with who says so (engine/owners_words); others are the planner's own.
 bool is_said_by_owner(const std::string& reason) { return reason.find("(says ") != std::string::npos; }
 
 // Why there is no plan, without a word of how planners work.

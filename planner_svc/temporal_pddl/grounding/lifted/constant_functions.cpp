@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "planner_svc/engine/function_words.hpp"
 #include "planner_svc/temporal_pddl/call/planning_failure.hpp"
 #include "planner_svc/temporal_pddl/grounding/lifted/model_failure.hpp"
 
@@ -11,7 +12,7 @@ namespace roci::planner::temporal_pddl::grounding::lifted {
 
 using call::PlanningFailure;
 using engine::FunctionCall, engine::FunctionOutcome, engine::FunctionSource, engine::FunctionUse,
-    engine::FunctionValue, engine::Provenance;
+    engine::FunctionValue;
 using task::FunctionId;
 using task::ObjectId;
 using temporal::Verdict;
@@ -35,49 +36,11 @@ std::vector<std::vector<ObjectId>> all_tuples(const std::vector<std::vector<Obje
   return tuples;
 }
 
-std::string describe(const FunctionCall& call) { return application(call) + " of module " + call.module; }
-
-std::string remedy_for(FunctionOutcome outcome, const FunctionCall& call) {
-  switch (outcome) {
-    case FunctionOutcome::unavailable:
-    case FunctionOutcome::owner_lost:
-      return "start the service that offers module " + call.module + ", or give the values in a file";
-    case FunctionOutcome::late:
-      return "give the owner more time, or declare fewer objects";
-    case FunctionOutcome::unknown_object:
-    case FunctionOutcome::wrong_arity:
-      return "declare the function as its owner offers it, with objects that the owner knows";
-    case FunctionOutcome::not_a_number:
-      return "the owner must answer with a finite number or with 'unreachable'";
-    case FunctionOutcome::value:
-    case FunctionOutcome::unreachable:
-    case FunctionOutcome::unknown:
-      break;
-  }
-  return "";
-}
-
-std::string describe(const Provenance& said) {
-  if (said.owner.empty()) return "";
-  std::string text = "; asked " + said.owner;
-  if (!said.model_version.empty()) {
-    text += ", model " + said.model_version + ", at " +
-            std::to_string(std::chrono::duration<double>(said.time).count()) + " s";
-  }
-  return text;
-}
-
-void require_usable(const FunctionCall& call, const FunctionValue& answer, const Symbols& symbols,
-                    const FunctionSymbol& symbol) {
-  if (answer.outcome == FunctionOutcome::value || answer.outcome == FunctionOutcome::unreachable ||
-      answer.outcome == FunctionOutcome::unknown)
-    return;
-  std::string message = "external function " + describe(call) + ": " + to_string(answer.outcome);
-  if (!answer.reason.empty()) message += ", " + answer.reason;
-  message += describe(answer.provenance);
-  throw ModelFailure(
-      Verdict::function_unavailable,
-      pddl::Diagnostic{symbols.domain_file(), symbol.declared, message, remedy_for(answer.outcome, call)});
+void require_usable(const FunctionUse& use, const Symbols& symbols, const FunctionSymbol& symbol) {
+  const std::string fault = fault_of(use);
+  if (fault.empty()) return;
+  throw ModelFailure(Verdict::function_unavailable,
+                     pddl::Diagnostic{symbols.domain_file(), symbol.declared, fault, remedy_of(use)});
 }
 
 }  // namespace
@@ -133,7 +96,7 @@ void ConstantFunctions::load_external(FunctionSource& source, const std::functio
       used.push_back({calls[k], answer});
       if (answer.outcome == FunctionOutcome::value) define(function, tuples[k], answer.value);
     }
-    for (std::size_t k = 0; k < calls.size(); ++k) require_usable(calls[k], answers[k], symbols, symbol);
+    for (std::size_t k = 0; k < calls.size(); ++k) require_usable({calls[k], answers[k]}, symbols, symbol);
   }
 }
 
