@@ -84,6 +84,7 @@ bool Delivery::hear(Existing product, Time now) {
     if (at->fate == Fate::stored && product.fate != Fate::stored) last_sent_ = std::max(last_sent_, now);
     *at = std::move(product);
   } else {
+    if (product.fate == Fate::sent || product.fate == Fate::received) last_sent_ = std::max(last_sent_, now);
     existing_.insert(at, std::move(product));
     products_.insert(products_.begin() + index, assessor::ExistingProduct{});
   }
@@ -217,10 +218,13 @@ Delivery::Question Delivery::question(const search::PlannedData& planned, const 
 // The radio does not break off what it has begun. If it takes longer than what is left, other data must not have that room.
 void Delivery::keep_what_is_sent(Question& question, Time now) const {
   for (std::size_t w = 0; w < question.windows.size(); ++w) {
-    const auto told = told_.find(question.downlinks[w].id);
-    if (question.downlinks[w].start >= now || told == told_.end()) continue;
+    const search::PlannedDownlink& running = question.downlinks[w];
+    if (running.start >= now) continue;
+    const auto told = told_.find(running.id);
+    const std::vector<std::string> order =
+        told != told_.end() ? told->second : sent_by(running, question, question.windows[w]);
     const auto exists = question.standing.begin() + static_cast<std::ptrdiff_t>(question.existing);
-    for (const std::string& id : told->second) {
+    for (const std::string& id : order) {
       const auto found = std::find_if(question.standing.begin(), exists,
                                       [&](const DataProduct& one) { return one.id == id; });
       if (found == exists) continue;
@@ -235,6 +239,20 @@ void Delivery::keep_what_is_sent(Question& question, Time now) const {
       break;
     }
   }
+}
+
+// What a schedule that another planner has told lets a downlink send that runs, as far as it is known. It goes on whoever plans.
+std::vector<std::string> Delivery::sent_by(const search::PlannedDownlink& downlink, const Question& question,
+                                           const downlink::Window& left) const {
+  std::vector<std::string> out;
+  if (has_told_) return out;
+  const double room = temporal::to_seconds(downlink.end - downlink.start) * left.bytes_per_s;
+  const std::vector<DataProduct> exist(
+      question.standing.begin(), question.standing.begin() + static_cast<std::ptrdiff_t>(question.existing));
+  for (const std::size_t p : sending_order(exist))
+    if (static_cast<double>(exist[p].bytes) <= room && exist[p].created <= left.start)
+      out.push_back(exist[p].id);
+  return out;
 }
 
 // Returns the joules of what was executed in a sol.
