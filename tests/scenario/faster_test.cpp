@@ -82,7 +82,7 @@ TEST_F(FasterTrial, TheScoutGoesFirstAndMendsItsDriveBeforeTheTrap) {
   for (int w = 1; w <= 9; ++w) {
     const std::string to = "w" + std::to_string(w);
     expected.push_back("scout " + to);
-    if (w == 3) expected.push_back("scout " + to);  // once more, on the new path
+    if (w == 3) expected.insert(expected.end(), {"scout w2", "scout w3"});  // back, and on the new path
     expected.push_back("primary " + to);
   }
   EXPECT_EQ(deeds("motion"), expected);
