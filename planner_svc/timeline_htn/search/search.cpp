@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "planner_svc/timeline_htn/search/decompositions.hpp"
+#include "planner_svc/timeline_htn/search/earliest_times.hpp"
 
 namespace roci::planner::timeline_htn::search {
 
@@ -56,6 +57,9 @@ Search::Search(const Model& model, const Resolver& resolver)
   if (const auto obstacle = out_of_reach()) {
     state_ = Outcome::exhausted;
     obstacle_ = *obstacle;
+  } else if (auto late = too_late(ground_, successors_, *plan_)) {
+    state_ = Outcome::exhausted;
+    never_reached_ = {late->goal, std::move(late->reason)};
   }
 }
 
