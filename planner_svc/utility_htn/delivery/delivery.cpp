@@ -181,6 +181,9 @@ void Delivery::join(search::Problem& problem, Time now) {
   problem.downlink = [this, &values = problem.values, now](const search::PlannedData& planned) {
     return admits(planned, values, now);
   };
+  problem.later = [this, &values = problem.values](const search::PlannedData& planned) {
+    return next_sol(planned, values);
+  };
 }
 
 Delivery::Question Delivery::question(const search::PlannedData& planned, const model::Values& values,
@@ -276,6 +279,18 @@ bool Delivery::keeps_limits(const search::PlannedData& planned, const model::Val
     added.insert(window.sol);
   }
   return std::ranges::all_of(added, [&](std::uint32_t sol) { return joules[sol] + spent_in(sol) <= all; });
+}
+
+std::optional<Time> Delivery::next_sol(const search::PlannedData& planned,
+                                       const model::Values& values) const {
+  const std::set<std::uint32_t> overdrawn = overdrawn_sols(planned.downlinks, values);
+  std::optional<std::uint32_t> first;
+  for (std::size_t i = planned.committed_downlinks; i < planned.downlinks.size(); ++i) {
+    const downlink::Window window = rules_.window(planned.downlinks[i], values);
+    if (Rules::joules(window) > window.energy_limit_j) return std::nullopt;
+    if (overdrawn.contains(window.sol)) first = std::min(first.value_or(window.sol), window.sol);
+  }
+  return first ? std::optional(rules_.end_of_sol(*first, values)) : std::nullopt;
 }
 
 bool Delivery::admits(const search::PlannedData& planned, const model::Values& values, Time now) {

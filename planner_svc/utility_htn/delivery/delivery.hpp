@@ -128,6 +128,10 @@ class Delivery {
 
   /// Returns whether the data that are not standing yet have room, each in time, beside all that stands.
   bool admits(const search::PlannedData& planned, const model::Values& values, temporal::Time now);
+  /// Returns when the first sol ends whose limit is exceeded by downlinks that are not committed; none where it is no limit of a sol that they
+  /// exceed.
+  std::optional<temporal::Time> next_sol(const search::PlannedData& planned,
+                                         const model::Values& values) const;
   /// Returns which data go with which downlink.
   Schedule schedule(const search::PlannedData& planned, const model::Values& values,
                     temporal::Time now) const;

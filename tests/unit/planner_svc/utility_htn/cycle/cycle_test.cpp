@@ -497,6 +497,32 @@ TEST_F(TwoSites, ASiteThatIsGivenUpDoesNotHoldUpTheOthers) {
   EXPECT_THAT(cycle.closed(now), Contains(task_named(network_, "sample_0")));
 }
 
+// A sample waits until something is mended: what the map leads to behind it must not stay where it was planned, before it.
+TEST_F(TwoSites, WhatTheMapLedToThroughSomethingThatRepairTookOutGoesWithIt) {
+  model::Task& mend = add("mend");
+  mend.opens = 600s;
+  mend.impacts.push_back({testing::kHealth, temporal::ImpactKind::assign, temporal::ImpactWhen::at_end, {0}});
+  network_.tasks[task_named(network_, "sample_0")].constraints.push_back(
+      {.timeline = testing::kHealth, .states = 1});
+  chains_ = flattening::flatten_all(network_);
+  map_ = std::make_unique<assessor::SubwayAssessor>(network_, chains_);
+  Cycle cycle = make_with_map();
+  cycle.run(Time{0});
+  const auto start_of = [&](const std::string& id) {
+    return block_of_request(cycle, id).links.front().start;
+  };
+  ASSERT_LT(start_of("sample_1"), 600s);
+  cycle.observe(testing::kHealth, 5s, 1);
+  const Report report = cycle.run(10s);
+  EXPECT_THAT(report.done, Contains(Activity::repair));
+  EXPECT_THAT(report.notes, Contains("open_1 is taken out: it breaks a rule of the mission"));
+  EXPECT_GE(start_of("sample_0"), 650s);
+  for (const std::string& id : requests(cycle)) {
+    if (!id.ends_with("_1")) continue;
+    EXPECT_GT(start_of(id), start_of("sample_0")) << id;
+  }
+}
+
 TEST_F(TwoSites, WhatWasGivenUpStaysSoUntilSomebodyAsks) {
   Cycle first = make_with_map();
   Time now{0};

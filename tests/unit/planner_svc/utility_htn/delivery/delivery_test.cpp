@@ -304,13 +304,41 @@ TEST_F(LongSessions, AreNoLongerThanTheLimitOfTheirSolPermitsBesideOthers) {
 TEST_F(LongSessions, TakeTheirRealTimeFromTheirSol) {
   add_parameter("sol_limit_j", 350);
   task("idle").impacts.clear();  // there is energy enough
+  task("view").closes = 86400s;
   begin();
   cycle_->withdraw(task_named(network_, "view"));
   wait_for_it(600);
   cycle_->run(20s);
   ASSERT_EQ(session(), 60s);
   cycle_->request(task_named(network_, "view"));
-  EXPECT_THAT(planned(30s), Not(Contains("view"))) << "50 J are left of the sol";
+  EXPECT_THAT(planned(30s), Not(Contains("view"))) << "50 J are left of the sol, in which it has to be done";
+}
+
+// Where a sol has no energy left for a downlink, the next one has.
+TEST_F(DeliveryTest, WhatItsSolHasNoEnergyForIsSentInALaterOne) {
+  add_parameter("sol_limit_j", 150);
+  add_parameter("sol_s", 300);
+  task("idle").impacts.clear();
+  EXPECT_THAT(planned(), ElementsAre("idle", "sample", "view"));
+  std::set<std::uint32_t> sols;
+  for (const search::PlannedDownlink& one : cycle_->data().downlinks)
+    sols.insert(delivery_->sol_of(one.start, cycle_->past().values));
+  EXPECT_THAT(sols, ElementsAre(0, 1));
+}
+
+// So what gave way because of its sol comes in a later one.
+TEST_F(LongSessions, WhatGaveWayToItsSolIsPlannedInALaterOne) {
+  add_parameter("sol_limit_j", 350);
+  add_parameter("sol_s", 400);
+  task("idle").impacts.clear();
+  begin();
+  cycle_->withdraw(task_named(network_, "view"));
+  wait_for_it(600);
+  cycle_->run(20s);
+  ASSERT_EQ(session(), 60s);
+  cycle_->request(task_named(network_, "view"));
+  EXPECT_THAT(planned(30s), Contains("view"));
+  EXPECT_GE(cycle_->data().downlinks.back().start, 400s);
 }
 
 // What is late moves to a sol in which another downlink is planned.
