@@ -141,7 +141,8 @@ constexpr Duration kShortestTerm = temporal::seconds(0.5);
 ReactorSettings read_executive(const Entry& entry) {
   entry.allow_only({"ack_timeout_s", "fallback_timeout_s", "replan_limit", "call_retries", "failure_limit",
                     "failure_pause_s", "failure_pause_max_s", "keep_inputs", "kept_records", "recovery",
-                    "start", "replanning", "autonomy", "standby_term_s", "owner_return_s"});
+                    "start", "replanning", "autonomy", "standby_term_s", "owner_return_s",
+                    "hard_goal_trials"});
   ReactorSettings out;
   out.ack_timeout = seconds_or(entry, "ack_timeout_s", temporal::to_seconds(out.ack_timeout));
   out.fallback_timeout = seconds_or(entry, "fallback_timeout_s", temporal::to_seconds(out.fallback_timeout));
@@ -152,6 +153,7 @@ ReactorSettings read_executive(const Entry& entry) {
   out.failure_pause = seconds_or(entry, "failure_pause_s", temporal::to_seconds(out.failure_pause));
   out.failure_pause_max =
       seconds_or(entry, "failure_pause_max_s", temporal::to_seconds(out.failure_pause_max));
+  out.hard_goal_trials = count_or(entry, "hard_goal_trials", out.hard_goal_trials, 0);
   out.keep_inputs = entry.truth_or("keep_inputs", out.keep_inputs);
   out.kept_records = count_or(entry, "kept_records", out.kept_records, 0);
   if (const auto recovery = entry.find("recovery")) out.recovery = read_strategy(*recovery);

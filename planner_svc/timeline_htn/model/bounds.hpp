@@ -23,6 +23,7 @@ inline constexpr std::size_t kMostBehaviours = 1000;
 inline constexpr std::size_t kMostInList =
     64;  ///< of one state or behaviour: tests, needs, subgoals, constraints, …
 inline constexpr std::size_t kMostGoals = 1000;
+inline constexpr std::size_t kMostPredicted = 1000;     ///< values of one component
 inline constexpr std::size_t kLongestExpression = 100;  ///< numbers, tables and operators in it
 inline constexpr std::size_t kLongestText = 1000;  ///< bytes of a name or of a line of the small languages
 inline constexpr temporal::Duration kLongestDuration = temporal::seconds(1e9);  ///< 31 years

@@ -192,6 +192,7 @@ void check_problem(Complaints& complaints) {
     complaints.about(Part::goal, i);
     check_goal(complaints, problem, i);
   }
+  check_predictions(complaints);
 }
 
 }  // namespace
