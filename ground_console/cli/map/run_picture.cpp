@@ -110,7 +110,7 @@ struct Label {
 
   bool meets(const Label& other) const {
     return left < other.left + other.width && other.left < left + width &&
-           std::abs(y - other.y) < kLetters + 1;
+           std::abs(y - other.y) < 0.9 * kLetters;
   }
   static constexpr double kLetters = 10;
 };
