@@ -182,6 +182,9 @@ TEST(BadCommandLine, IsToldWithTheRemedy) {
   ended = run("timeout 60 roci-launch " + planetary + " --dds smoke --headless 2>&1");
   EXPECT_NE(ended.exit_code, 0);
   EXPECT_THAT(ended.output, AllOf(HasSubstr("smoke"), HasSubstr("cyclonedds"), HasSubstr("fastdds")));
+  ended = run("timeout 60 roci-timelines check " ROCI_SOURCE_DIR "/missions/faster 2>&1");
+  EXPECT_EQ(ended.exit_code, 1);
+  EXPECT_THAT(ended.output, HasSubstr("is a folder"));
   ended = run("timeout 60 roci goal add 2>&1");
   EXPECT_EQ(ended.exit_code, 2);
   const SpoiltMission mission;
