@@ -38,7 +38,10 @@ Entry Entry::load(const std::filesystem::path& file, Findings* findings) {
       throw FileError(file.string() + ":1:1: the file holds no 'key: value' pairs; see docs/missions.md");
     return Entry(document, root);
   } catch (const YAML::BadFile&) {
-    throw FileError(file.string() + ": cannot be read; check that the file exists");
+    std::error_code unknown;
+    throw FileError(file.string() + (std::filesystem::is_directory(file, unknown)
+                                         ? ": is a folder; name the file in it"
+                                         : ": cannot be read; check that the file exists"));
   } catch (const YAML::Exception& error) {
     throw FileError(place_of(file, error.mark) + ": not valid YAML (" + error.msg +
                     "); mend the syntax there");

@@ -31,8 +31,9 @@ Entry load_scenario(const std::filesystem::path& folder_or_file, const std::stri
   const auto names = scenario_names(folder_or_file);
   std::string all;
   for (const std::string& one : names) all += (all.empty() ? "" : ", ") + one;
-  throw FileError(file.string() + ": there is no such scenario; choose one of: " +
-                  (all.empty() ? "none" : all) + words::did_you_mean(name, names));
+  if (names.empty()) throw FileError(file.string() + ": the mission has no scenario; write this one");
+  throw FileError(file.string() + ": there is no such scenario; choose one of: " + all +
+                  words::did_you_mean(name, names));
 }
 
 }  // namespace roci::mission

@@ -65,7 +65,13 @@ cli::MissionWords words_of(const Line& line) {
 
 int list_goal_kinds(const Line& line) {
   if (line.mission.empty() && !lib::local_run(line.connection)) {
-    std::cerr << "roci: no mission runs on this machine, or several do; name one: roci goal kinds MISSION\n";
+    try {
+      lib::choose_run(line.connection);
+    } catch (const std::runtime_error& error) {
+      std::cerr << "roci: " << error.what() << "\n";
+      return cli::kNoMission;
+    }
+    std::cerr << "roci: that mission's files are not on this machine; name one: roci goal kinds MISSION\n";
     return cli::kNoMission;
   }
   const cli::MissionWords words = words_of(line);
@@ -91,7 +97,7 @@ void add_goal_verbs(CLI::App& app, Line& line) {
   add->add_option("kind", line.goal.kind, "One of the mission's goal kinds, e.g. photo")->required();
   add->add_option("arguments", line.goal.arguments, "name=value …, e.g. x=110 y=60");
   add->add_option(
-         "--class", line.goal.importance,
+         "--importance,--class", line.goal.importance,
          "hard (the mission fails without it), optional (may be dropped) or opportunistic (goes first)")
       ->capture_default_str();
   add->add_option("--robot", line.goal.robot, "The robot that is to achieve it (default: the only one)");

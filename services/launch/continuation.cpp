@@ -40,7 +40,8 @@ std::string take_resumed_folder(std::vector<std::string>& arguments) {
       return folder;
     }
     if (*at != kResume) continue;
-    if (at + 1 == arguments.end()) throw std::invalid_argument("--resume: name the folder of the run");
+    if (at + 1 == arguments.end() || (at + 1)->starts_with("--"))
+      throw std::invalid_argument("--resume: name the folder of the run behind it: --resume RUN_FOLDER");
     std::string folder = *(at + 1);
     arguments.erase(at, at + 2);
     return folder;

@@ -1,12 +1,14 @@
 // roci-launch flies a mission with every service in its own process; see README.md in this folder.
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cstdlib>
 #include <iostream>
 #include <system_error>
 
 #include "core/mission/entry.hpp"
+#include "core/mission/scenario.hpp"
 #include "services/clock/host_anchor.hpp"
 #include "services/launch/anchor_file.hpp"
 #include "services/launch/options.hpp"
@@ -44,6 +46,14 @@ void hand_anchor(const std::filesystem::path& folder, std::int64_t epoch_us) {
   setenv(process::kClockWatchVariable, "1", 1);
 }
 
+// What the simulated world would refuse at its start is told before anything starts.
+void require_scenario(const launch::Options& options) {
+  const roci::mission::ServiceEntry* master = options.list.clock_master();
+  const bool here = !options.live && master != nullptr &&
+                    std::ranges::find(options.services, master->name) != options.services.end();
+  if (here && master->program == "sim_svc") roci::mission::load_scenario(options.mission, options.scenario);
+}
+
 int start(int argc, char** argv) {
   const launch::Options options = launch::parse_options(argc, argv, process::process_environment());
   if (!options.become.empty()) {
@@ -54,6 +64,7 @@ int start(int argc, char** argv) {
   }
   if (options.connection.dds == "inproc")
     return become("roci-rehearse", launch::rehearsal_arguments(options));
+  require_scenario(options);
   process::StopSignals signals;
   std::atomic<int> stops{0};
   const process::StopWatch stop(signals, [&stops] { ++stops; });

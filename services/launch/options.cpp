@@ -120,7 +120,8 @@ Options parse_options(int argc, const char* const* argv, const services::process
   app.add_option("--run-folder", options.run_folder, "Folder for journal, logs and summary");
   app.add_option("--resume",
                  "Go on with the live run of this run folder, whose launcher has ended, as it was started; "
-                 "other options replace those of then");
+                 "other options replace those of then")
+      ->type_name("RUN_FOLDER");
   try {
     app.parse(std::move(line.arguments));
   } catch (const CLI::ParseError& error) {

@@ -19,6 +19,7 @@ namespace fs = std::filesystem;
 using ::testing::AllOf;
 using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 // A copy of the planetary mission, to be spoilt.
 class SpoiltMission {
@@ -176,10 +177,14 @@ TEST(BadCommandLine, IsToldWithTheRemedy) {
   const std::string planetary = ROCI_SOURCE_DIR "/missions/planetary";
   Ended ended = run("timeout 60 roci-launch " + planetary + " --scenario nowhere --headless 2>&1");
   EXPECT_EQ(ended.exit_code, 2);
-  EXPECT_THAT(ended.output, AllOf(HasSubstr("nowhere"), HasSubstr("nominal")));
+  EXPECT_THAT(ended.output, AllOf(HasSubstr("nowhere"), HasSubstr("nominal"), Not(HasSubstr("goals"))))
+      << "nothing was started";
   ended = run("timeout 60 roci-launch " + planetary + " --dds smoke --headless 2>&1");
   EXPECT_NE(ended.exit_code, 0);
   EXPECT_THAT(ended.output, AllOf(HasSubstr("smoke"), HasSubstr("cyclonedds"), HasSubstr("fastdds")));
+  ended = run("timeout 60 roci-timelines check " ROCI_SOURCE_DIR "/missions/faster 2>&1");
+  EXPECT_EQ(ended.exit_code, 1);
+  EXPECT_THAT(ended.output, HasSubstr("is a folder"));
   ended = run("timeout 60 roci goal add 2>&1");
   EXPECT_EQ(ended.exit_code, 2);
   const SpoiltMission mission;

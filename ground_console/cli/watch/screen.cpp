@@ -15,11 +15,9 @@ constexpr std::size_t kMapRows = 12;
 constexpr std::size_t kEventRows = 9;  // fewer on a low terminal, so that the plan has room
 constexpr std::size_t kLeastPlan = 8;  // rows; below that the plan takes those of the levels
 
-void draw_head(const lib::MissionView& view, Canvas& canvas) {
-  if (!view.mission()) {
-    canvas.put(0, 0, "waiting for exec_svc", Style::warning);
-    return;
-  }
+// Returns the column behind it.
+std::size_t draw_head(const lib::MissionView& view, Canvas& canvas) {
+  if (!view.mission()) return canvas.put(0, 0, "waiting for exec_svc", Style::warning) + 3;
   const v1::MissionStatus& mission = *view.mission();
   std::size_t column = canvas.put(0, 0, mission.mission(), Style::title) + 3;
   if (view.executives().size() > 1) column = canvas.put(0, column, view.executive(), Style::title) + 3;
@@ -37,7 +35,9 @@ void draw_head(const lib::MissionView& view, Canvas& canvas) {
              3;
   }
   if (const v1::LeaseMessage* leader = view.leader())
-    canvas.put(0, column, lib::pair_text(*leader), leader->entitled() ? Style::dim : Style::warning);
+    column =
+        canvas.put(0, column, lib::pair_text(*leader), leader->entitled() ? Style::dim : Style::warning) + 3;
+  return column;
 }
 
 // States and levels as last observed, the subsystem's name without its owner's.
@@ -68,7 +68,7 @@ void draw_robot(const lib::MissionView& view, const std::vector<Robot>& robots, 
 Canvas watch_screen(const lib::MissionView& view, std::size_t width, std::size_t height,
                     const MissionWords& words) {
   Canvas canvas(width, height);
-  draw_head(view, canvas);
+  const std::size_t head_end = draw_head(view, canvas);
   const bool map_fits = width >= kNarrowest;
   const std::size_t goals_width = width >= kGoals + kLeastMap ? kGoals : map_fits ? width * 3 / 5 : width;
   const std::vector<Robot> robots = robots_of(view);
@@ -88,7 +88,9 @@ Canvas watch_screen(const lib::MissionView& view, std::size_t width, std::size_t
   const std::size_t open_row = top + 4 + robots_height;
   const std::size_t open = draw_open(view, {open_row, 0, width, height / 6}, canvas);
   const std::size_t plan_row = open_row + open + (open > 0 ? 1 : 0);
-  const std::size_t event_rows = std::clamp<std::size_t>(height / 4, 4, kEventRows);
+  // With the title; what few events leave free is the plan's.
+  const std::size_t event_rows =
+      std::min(std::clamp<std::size_t>(height / 4, 4, kEventRows), view.events().size() + 1);
   const std::size_t events_row = height > plan_row + event_rows ? height - event_rows : plan_row;
   const std::vector<Level> levels = levels_of(view);
   const std::size_t levels_height = levels.empty() ? 0 : levels.size() + 2;
@@ -105,7 +107,7 @@ Canvas watch_screen(const lib::MissionView& view, std::size_t width, std::size_t
   }
   draw_events(view, {after, 0, width, height > after ? height - after : 0}, canvas);
   constexpr std::string_view kHelp = "q ends the view";
-  if (height > 2 && width > 100) canvas.put(0, width - kHelp.size(), kHelp, Style::dim);
+  if (height > 2 && width >= head_end + kHelp.size()) canvas.put(0, width - kHelp.size(), kHelp, Style::dim);
   return canvas;
 }
 

@@ -54,7 +54,9 @@ bool Line::take(std::string_view symbol) {
 
 void Line::expect(std::string_view symbol) {
   if (!take(symbol))
-    fail("expected '" + std::string(symbol) + "' " + (ends() ? "at the end" : "before '" + rest() + "'"));
+    fail("expected '" + std::string(symbol) + "' " +
+         (ends() ? "at the end; close it, and inside of [ ] and { } put quotes round what has a comma"
+                 : "before '" + rest() + "'"));
 }
 
 bool Line::take_word(std::string_view word) {

@@ -53,7 +53,9 @@ class Roots {
     std::error_code error;
     std::ifstream in(file, std::ios::binary);
     if (!in || !std::filesystem::is_regular_file(file, error))
-      throw FileError(file.string() + ": cannot be read; check that the file exists");
+      throw FileError(file.string() + (std::filesystem::is_directory(file, error)
+                                           ? ": is a folder; name the files in it, e.g. problem.yaml"
+                                           : ": cannot be read; check that the file exists"));
     const std::uintmax_t size = std::filesystem::file_size(file, error);
     std::string out(error ? 0 : std::min<std::uintmax_t>(size, model::kMostBytes) + 1, '\0');
     in.read(out.data(), static_cast<std::streamsize>(out.size()));

@@ -18,16 +18,20 @@ std::string listed(const std::vector<std::string>& known) {
   return out;
 }
 
+std::string with_article(const std::string& kind) {
+  return (kind.find_first_of("aeiou") == 0 ? "an " : "a ") + kind;
+}
+
 }  // namespace
 
 void Names::add(const std::string& name, const mission::Entry& place) {
   if (!is_name(name))
-    place.fail("'" + name.substr(0, 60) + "' is no name of a " + kind_ +
+    place.fail("'" + name.substr(0, 60) + "' is no name of " + with_article(kind_) +
                "; use letters, digits, '_' and '-' within, with a letter or '_' at the front");
   const auto [entry, added] =
       known_.emplace(name, Known{static_cast<model::Index>(known_.size()), place.place()});
   if (!added)
-    place.fail("there is a " + kind_ + " '" + name + "' already, at " + entry->second.place + "; rename one");
+    place.fail("there is " + with_article(kind_) + " '" + name + "' already, at " + entry->second.place + "; rename one");
 }
 
 std::optional<model::Index> Names::find(std::string_view name) const {

@@ -115,6 +115,8 @@ void Vocabulary::product(Line& line, Scope& scope, Expression& out) const {
     const bool times = line.take("*");
     if (!times && !line.take("/")) return;
     factor(line, scope, out);
+    if (!times && out.back().op == Operator::constant && out.back().constant == 0)
+      line.fail("nothing can be divided by 0; mend the number");
     out.push_back({times ? Operator::multiply : Operator::divide, 0, 0, {}});
   }
 }

@@ -22,6 +22,7 @@ using temporal::Verdict;
 
 namespace {
 
+using ::testing::AllOf;
 using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -53,6 +54,24 @@ TEST_P(FallbackTest, BeforePlanningAnActiveComponentFallsBack) {
   run(500, std::move(stopped));
   EXPECT_THAT(trace, Contains("call"));
   EXPECT_EQ(reactor.outcome(), "achieved");
+}
+
+// R44: what was achieved stays so while components fall back; the next plan begins with it.
+TEST_F(ReactorTest, StatesOfScienceGoalsPersistWhileComponentsFallBack) {
+  std::string problem;
+  planner = [&](const PlanRequest& call) {
+    problem = call.problem.text;
+    return image_every_goal(call);
+  };
+  ReactorInputs inputs = robot_and({photo("a"), photo("b")});
+  inputs.observations.push_back({"rover.image.image-b", state("stored")});
+  inputs.observations.push_back({"rover.camera", state("imaging")});
+  run(10, std::move(inputs));
+  EXPECT_THAT(trace, AllOf(Contains("stop"), Not(Contains("call"))));
+  ReactorInputs stopped;
+  stopped.observations = {{"rover.camera", state("idle")}};
+  run(12, std::move(stopped));
+  EXPECT_THAT(problem, AllOf(HasSubstr("(have-image image-b)"), Not(HasSubstr("(have-image image-a)"))));
 }
 
 // R45: these are all the active states there are.

@@ -150,7 +150,9 @@ TEST(PlanRows, KeepWithinTheirRoomAndCountTheRest) {
 }
 
 TEST(WatchScreen, ShowsTheLevelsOfAPlan) {
-  const std::string screen = cli::watch::watch_screen(traverse(3, 1), 100, 36).plain();
+  EXPECT_THAT(cli::watch::watch_screen(traverse(3, 1), 100, 36).plain(), HasSubstr("cycle-2.2"))
+      << "where few events are told the plan has their room";
+  const std::string screen = cli::watch::watch_screen(traverse(3, 1), 100, 27).plain();
   const std::string plan =
       screen.substr(screen.find("Plan 3"), screen.find("Events") - screen.find("Plan 3"));
   EXPECT_EQ(

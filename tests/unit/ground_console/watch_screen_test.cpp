@@ -112,7 +112,7 @@ TEST(WatchScreen, HasAMapAt80ColumnsToo) {
 
 TEST(WatchScreen, WaitsForAMission) {
   EXPECT_EQ(lines_of(cli::watch::watch_screen(lib::MissionView(), 80, 24).plain()).at(0),
-            "waiting for exec_svc");
+            "waiting for exec_svc                                             q ends the view");
 }
 
 TEST(WatchScreen, NeverLeavesTheTerminal) {

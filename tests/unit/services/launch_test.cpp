@@ -190,6 +190,8 @@ TEST_F(LaunchTest, WhatCannotBeResumedIsRefusedInWords) {
     }
   };
   EXPECT_THAT(complaint(), HasSubstr("there is no launch.json of a run in it"));
+  const std::vector<const char*> slip{"roci-launch", "--resume", "--run-folder", folder.c_str()};
+  EXPECT_THROW(parse_options(4, slip.data(), [](const char*) { return std::nullopt; }), std::invalid_argument);
   Options options = parse({"--dds", "cyclonedds"});
   options.run_folder = folder;
   keep_command_line(options, clock::anchor_host(), 0);
