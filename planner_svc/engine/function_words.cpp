@@ -19,13 +19,15 @@ std::string asked_of(const Provenance& said) {
 
 }  // namespace
 
+bool is_usable(const FunctionValue& answer) {
+  return answer.outcome == FunctionOutcome::value || answer.outcome == FunctionOutcome::unreachable ||
+         answer.outcome == FunctionOutcome::unknown;
+}
+
 std::string fault_of(const FunctionUse& use) {
-  const FunctionOutcome outcome = use.answer.outcome;
-  if (outcome == FunctionOutcome::value || outcome == FunctionOutcome::unreachable ||
-      outcome == FunctionOutcome::unknown)
-    return {};
+  if (is_usable(use.answer)) return {};
   std::string text = "external function " + application(use.call) + " of module " + use.call.module + ": " +
-                     to_string(outcome);
+                     to_string(use.answer.outcome);
   if (!use.answer.reason.empty()) text += ", " + use.answer.reason;
   return text + asked_of(use.answer.provenance);
 }

@@ -9,8 +9,11 @@
 
 namespace roci::planner::engine {
 
+/// Whether the owner gave a value, or says that there is none or that it found none.
+bool is_usable(const FunctionValue& answer);
+
 /// Why nothing can be planned with this answer: "external function (f a b) of module m: late, REASON; asked OWNER, model 3, at 12.5 s".
-/// Empty where the owner gave a value, or says that there is none or that it found none.
+/// Empty where it is usable.
 std::string fault_of(const FunctionUse& use);
 /// What to do about it; empty where there is no fault.
 std::string remedy_of(const FunctionUse& use);

@@ -87,8 +87,9 @@ void explain(FfHeuristic& ff, ResourceDeadEnds& resources, SearchOutcome outcome
 }
 
 Grounding grounded(const pddl::Domain& domain, const pddl::Problem& problem, FunctionSource& functions,
-                   const Options& options, SearchLimits& limits, Result& result) {
+                   const Options& options, SearchLimits& limits, bool keeps_functions, Result& result) {
   GroundingReport report;
+  report.keeps_functions = keeps_functions;
   const auto tell = [&] {
     result.functions = std::move(report.functions);
     result.warnings = std::move(report.warnings);
@@ -131,7 +132,8 @@ void solve(const pddl::Domain& domain, const pddl::Problem& problem, const Attem
            std::span<const NamedGoal> goals, SearchLimits& limits, Result& result) {
   const Options& options = attempt.options;
   limits.phase("grounding");
-  const Grounding grounding = grounded(domain, problem, attempt.functions, options, limits, result);
+  const Grounding grounding =
+      grounded(domain, problem, attempt.functions, options, limits, attempt.keeps_functions, result);
   const Task& task = grounding.task;
   const Touched touched(task, attempt.touched, limits);
   describe(task, result.statistics);

@@ -4,11 +4,13 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "services/process/domain_claim.hpp"
 #include "tests/scenario/flight.hpp"
@@ -60,6 +62,49 @@ TEST_P(Porter, PlansAnewFromWhereItStands) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Transports, Porter, ::testing::Values("inproc", "fastdds", "cyclonedds", "mixed"),
+                         [](const auto& dds) { return std::string(dds.param); });
+
+class Relay : public ByTimelines {
+ protected:
+  Relay() : ByTimelines("relay") {}
+
+  // When each message was sent, in seconds, with its name.
+  std::vector<std::pair<double, std::string>> sent() const {
+    std::vector<std::pair<double, std::string>> out;
+    std::ifstream in(folder_ / "effects.jsonl");
+    for (std::string line; std::getline(in, line);) {
+      const auto deed = nlohmann::json::parse(line);
+      out.emplace_back(deed.at("time_us").get<double>() / 1e6, deed.value("object", ""));
+    }
+    return out;
+  }
+};
+
+// The planning request carries the windows of the mission: each communication is planned inside of one, the earliest that fits, in
+// one plan. The executive does not send a message before, though nothing else is in its way.
+TEST_P(Relay, CommunicationsArePlannedInTheWindowsOfTheGround) {
+  expect_as_listed("nominal");
+  const auto messages = sent();
+  ASSERT_EQ(messages.size(), 3U);
+  EXPECT_THAT(messages[0], testing::Pair(600, "weather"));
+  EXPECT_THAT(messages[1], testing::Pair(testing::AllOf(testing::Gt(645), testing::Le(666)), "image"));
+  EXPECT_THAT(messages[2], testing::Pair(2000, "log"));
+}
+
+TEST_P(Relay, AWindowThatStaysClosedIsWaitedForAndTheNextOneIsPlannedWith) {
+  expect_as_listed("closed");
+  EXPECT_THAT(sent(), ElementsAre(testing::Pair(2000, "weather")));
+}
+
+TEST_P(Relay, WhereNoWindowIsLeftTheGoalFallsAtOnceWithTheReason) {
+  expect_as_listed("too_late");
+  EXPECT_THAT(sent(), ElementsAre(testing::Pair(600, "log")));
+  const auto events = journaled_events(folder_ / "journal.sqlite");
+  EXPECT_THAT(events, testing::Contains(testing::HasSubstr(
+                          "goal ground/weather dropped: out of reach: mail.told(weather) comes about at")));
+}
+
+INSTANTIATE_TEST_SUITE_P(Transports, Relay, ::testing::Values("inproc", "fastdds", "cyclonedds", "mixed"),
                          [](const auto& dds) { return std::string(dds.param); });
 
 class Patrol : public ByTimelines {

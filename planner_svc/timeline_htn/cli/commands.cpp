@@ -198,6 +198,35 @@ nlohmann::ordered_json json_of(const FlexiblePlan& plan, const temporal::Executi
   return {{"activities", activities}, {"decisions", decisions}};
 }
 
+// What is known to come of a component: the state in which it begins, and each later one with its time.
+std::vector<model::PredictedState> predicted_states(const Model& model, model::Index component) {
+  std::vector<model::PredictedState> out{{temporal::Duration{0}, *model.problem->initial[component]}};
+  for (const model::PredictedState& one : *model.problem->predicted[component])
+    if (one.at < model.problem->horizon) out.push_back(one);
+  return out;
+}
+
+void print_predicted(const Model& model, std::ostream& out) {
+  for (model::Index c = 0; c < model.components.size(); ++c) {
+    if (!model::is_predicted(model, c)) continue;
+    out << "predicted:";
+    for (const model::PredictedState& one : predicted_states(model, c))
+      out << (one.at == temporal::Duration{0} ? " " : ", ") << to_text(model, one.state, {}) << " ["
+          << seconds(one.at) << "]";
+    out << '\n';
+  }
+}
+
+nlohmann::ordered_json predicted_json(const Model& model) {
+  auto out = nlohmann::ordered_json::object();
+  for (model::Index c = 0; c < model.components.size(); ++c)
+    if (model::is_predicted(model, c))
+      for (const model::PredictedState& one : predicted_states(model, c))
+        out[model.components[c].name].push_back(
+            {{"at_s", temporal::to_seconds(one.at)}, {"state", to_text(model, one.state, {})}});
+  return out;
+}
+
 }  // namespace
 
 ExitCode check(const Files& files, const Output& output) {
@@ -241,10 +270,12 @@ ExitCode plan(const Files& files, const PlanOptions& options, const Output& outp
                           {"repeated", count.repeated},
                           {"bytes", count.bytes}};
     json.update(json_of(plan, windows));
+    if (auto predicted = predicted_json(*model); !predicted.empty()) json["predicted"] = std::move(predicted);
     output.out << json.dump(2) << '\n';
     return done;
   }
   print_tree(plan, windows, "", output.out);
+  print_predicted(*model, output.out);
   for (const auto& decision : plan.decisions) {
     output.out << "decision " << decision.id << " before "
                << seconds(windows.window(decision.decide_before).upper) << " s:";

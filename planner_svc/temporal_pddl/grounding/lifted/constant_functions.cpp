@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <utility>
 
 #include "planner_svc/engine/function_words.hpp"
 #include "planner_svc/temporal_pddl/call/planning_failure.hpp"
@@ -19,28 +20,51 @@ using temporal::Verdict;
 
 namespace {
 
-// Returns all tuples of the product, the last position running fastest.
-std::vector<std::vector<ObjectId>> all_tuples(const std::vector<std::vector<ObjectId>>& domains) {
-  std::vector<std::vector<ObjectId>> tuples{{}};
-  for (const auto& domain : domains) {
-    std::vector<std::vector<ObjectId>> longer;
-    longer.reserve(tuples.size() * domain.size());
-    for (const auto& tuple : tuples) {
-      for (const ObjectId object : domain) {
-        longer.push_back(tuple);
-        longer.back().push_back(object);
-      }
-    }
-    tuples = std::move(longer);
-  }
-  return tuples;
+// The tuples of a function, which are many: they are counted and made one by one, never listed.
+std::size_t number_of_tuples(const std::vector<std::vector<ObjectId>>& domains) {
+  std::size_t count = 1;
+  for (const auto& domain : domains) count *= domain.size();
+  return count;
 }
 
-void require_usable(const FunctionUse& use, const Symbols& symbols, const FunctionSymbol& symbol) {
-  const std::string fault = fault_of(use);
-  if (fault.empty()) return;
+// Gives tuple `index` of the product, of which the last position runs fastest.
+void make_tuple(const std::vector<std::vector<ObjectId>>& domains, std::size_t index,
+                std::vector<ObjectId>& tuple) {
+  tuple.resize(domains.size());
+  for (std::size_t position = domains.size(); position-- > 0;) {
+    tuple[position] = domains[position][index % domains[position].size()];
+    index /= domains[position].size();
+  }
+}
+
+std::size_t external_tuples(const Symbols& symbols) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < symbols.functions(); ++i) {
+    const FunctionSymbol& symbol = symbols[FunctionId(i)];
+    if (!symbol.module.empty()) count += number_of_tuples(symbol.parameters);
+  }
+  return count;
+}
+
+std::vector<FunctionCall> calls_of_all_tuples(const FunctionSymbol& symbol, const Symbols& symbols) {
+  const std::size_t count = number_of_tuples(symbol.parameters);
+  std::vector<FunctionCall> calls;
+  calls.reserve(count);
+  std::vector<ObjectId> tuple;
+  for (std::size_t i = 0; i < count; ++i) {
+    make_tuple(symbol.parameters, i, tuple);
+    FunctionCall& call = calls.emplace_back();
+    call.module = symbol.module;
+    call.function = symbol.name;
+    call.arguments.reserve(tuple.size());
+    for (const ObjectId object : tuple) call.arguments.push_back(symbols.name(object));
+  }
+  return calls;
+}
+
+[[noreturn]] void refuse(const FunctionUse& use, const Symbols& symbols, const FunctionSymbol& symbol) {
   throw ModelFailure(Verdict::function_unavailable,
-                     pddl::Diagnostic{symbols.domain_file(), symbol.declared, fault, remedy_of(use)});
+                     pddl::Diagnostic{symbols.domain_file(), symbol.declared, fault_of(use), remedy_of(use)});
 }
 
 }  // namespace
@@ -71,32 +95,32 @@ ConstantFunctions::ConstantFunctions(const pddl::Problem& problem, const std::ve
 }
 
 void ConstantFunctions::load_external(FunctionSource& source, const std::function<bool()>& cancelled,
-                                      const Symbols& symbols, std::vector<FunctionUse>& used) {
+                                      const Symbols& symbols, std::vector<FunctionUse>* used) {
+  if (used)
+    used->reserve(used->size() + external_tuples(symbols));  // one that grows is there twice meanwhile
+  std::vector<ObjectId> tuple;
   for (std::size_t i = 0; i < symbols.functions(); ++i) {
     const FunctionId function(i);
     const FunctionSymbol& symbol = symbols[function];
     if (symbol.module.empty()) continue;
     external_[function] = true;
-    const auto tuples = all_tuples(symbol.parameters);
-    std::vector<FunctionCall> calls;
-    for (const auto& tuple : tuples) {
-      FunctionCall call{symbol.module, symbol.name, {}};
-      for (const ObjectId object : tuple) call.arguments.push_back(symbols.name(object));
-      calls.push_back(std::move(call));
-    }
+    auto calls = calls_of_all_tuples(symbol, symbols);
     auto answers = source.evaluate(calls, cancelled);
     if (cancelled())
       throw PlanningFailure(Verdict::cancelled, "cancelled while waiting for external functions");
     if (answers.size() != calls.size()) answers.assign(calls.size(), FunctionValue{});
+    std::optional<FunctionUse> unusable;
     for (std::size_t k = 0; k < calls.size(); ++k) {
       FunctionValue& answer = answers[k];
       if (answer.outcome == FunctionOutcome::value && !std::isfinite(answer.value)) {
         answer.outcome = FunctionOutcome::not_a_number;
       }
-      used.push_back({calls[k], answer});
-      if (answer.outcome == FunctionOutcome::value) define(function, tuples[k], answer.value);
+      make_tuple(symbol.parameters, k, tuple);
+      if (answer.outcome == FunctionOutcome::value) define(function, tuple, answer.value);
+      if (!unusable && !is_usable(answer)) unusable = FunctionUse{calls[k], answer};
+      if (used) used->push_back({std::move(calls[k]), std::move(answer)});
     }
-    for (std::size_t k = 0; k < calls.size(); ++k) require_usable({calls[k], answers[k]}, symbols, symbol);
+    if (unusable) refuse(*unusable, symbols, symbol);
   }
 }
 
