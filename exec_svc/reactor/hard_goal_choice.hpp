@@ -22,8 +22,8 @@ std::vector<std::vector<goals::GoalKey>> leaving_sets(const goals::GoalSet& goal
 
 /// Hard goals among which some have to leave, and how far it has been seen which.
 struct HardGoalTrials {
-  std::vector<goals::GoalKey>
-      without;             ///< the newest call was made without these; empty: there are no trials
+  /// The newest call was made without these; empty: there are no trials.
+  std::vector<goals::GoalKey> without;
   std::uint32_t made = 0;  ///< calls, the newest one with them
   PlanReply refusal;       ///< to the call with all hard goals
 

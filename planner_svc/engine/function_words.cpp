@@ -66,6 +66,18 @@ std::string doubt_of(std::span<const FunctionUse> uses) {
   return text + " with the effort spent; ask again or give it more";
 }
 
+std::string denial_of(std::span<const FunctionUse> uses) {
+  const auto is_unreachable = [](const FunctionUse& use) {
+    return use.answer.outcome == FunctionOutcome::unreachable;
+  };
+  const auto first = std::ranges::find_if(uses, is_unreachable);
+  if (first == uses.end()) return {};
+  const auto count = std::ranges::count_if(uses, is_unreachable);
+  return first->answer.provenance.owner + " says that there is no " + application(first->call) +
+         (first->answer.reason.empty() ? "" : ", " + first->answer.reason) +
+         (count > 1 ? ", and " + std::to_string(count - 1) + " more" : "");
+}
+
 temporal::FunctionValueUse recorded(const FunctionUse& use) {
   std::uint64_t version = 0;
   const std::string& text = use.answer.provenance.model_version;

@@ -22,6 +22,9 @@ std::string remedy_of(const FunctionUse& use);
 /// (f a b) and 2 more with the effort spent; ask again or give it more". Empty where they found or disproved all.
 std::string doubt_of(std::span<const FunctionUse> uses);
 
+/// What owners proved: "OWNER says that there is no (f a b), REASON, and 2 more". Empty where they proved nothing.
+std::string denial_of(std::span<const FunctionUse> uses);
+
 /// The value as a plan that stands on it records it. The owner gave one.
 temporal::FunctionValueUse recorded(const FunctionUse& use);
 

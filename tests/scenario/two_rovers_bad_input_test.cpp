@@ -199,7 +199,7 @@ TEST(OpenDecision, IsAnsweredOnceInTimeWithAChoiceThatThereIs) {
               "    constraints: [lift before put, lift before crane]\n"
               "    decisions:\n"
               "      how: {resolver: ground, before: put.start, choices: {floor: {subgoals: put}, crane: "
-              "{subgoals: crane, instead: true}}}\n");
+              "{subgoals: crane}}}\n");
   porter.edit(
       "porter.yaml", "    transitions:\n      - \"empty -> lifting",
       "      handing_over:\n"

@@ -64,19 +64,6 @@ std::set<std::string> named_by(const Model& model, const model::Goal& goal) {
   return out;
 }
 
-// "pathplan_svc says that there is no (traverse_time a b), and 2 more"; empty where there is a value for all.
-std::string without_value(std::span<const FunctionUse> uses) {
-  const auto is_unreachable = [](const FunctionUse& use) {
-    return use.answer.outcome == FunctionOutcome::unreachable;
-  };
-  const auto first = std::ranges::find_if(uses, is_unreachable);
-  if (first == uses.end()) return {};
-  const auto count = std::ranges::count_if(uses, is_unreachable);
-  return first->answer.provenance.owner + " says that there is no " + application(first->call) +
-         (first->answer.reason.empty() ? "" : ", " + first->answer.reason) +
-         (count > 1 ? ", and " + std::to_string(count - 1) + " more" : "");
-}
-
 }  // namespace
 
 std::vector<temporal::FunctionValueUse> values_of(const search::Search& search,
@@ -112,7 +99,8 @@ void explain(engine::Answer& answer, const Model& model, const engine::Request& 
       said = true;
       break;
     }
-  if (const std::string words = without_value(uses); !said && !words.empty()) answer.reason += "; " + words;
+  if (const std::string words = engine::denial_of(uses); !said && !words.empty())
+    answer.reason += "; " + words;
 }
 
 }  // namespace roci::planner::timeline_htn::adapter

@@ -80,12 +80,19 @@ struct NoPlan {
   ExitCode code = unsolved;
 };
 
-NoPlan why_not(const search::Resolution& resolution, const std::string& doubt, const PlanOptions& options) {
+// Where services gave no value that is proved by what they proved, or is not proved.
+NoPlan unsolvable(const std::string& reason, const std::vector<engine::FunctionUse>& uses) {
+  const std::string doubt = engine::doubt_of(uses), denial = engine::denial_of(uses);
+  if (!doubt.empty()) return {"timeout", doubt + "; without that, " + reason};
+  return {"unsolvable", denial.empty() ? reason : reason + "; " + denial};
+}
+
+NoPlan why_not(const search::Resolution& resolution, const std::vector<engine::FunctionUse>& uses,
+               const PlanOptions& options) {
   const std::string reason = resolution.search->reason();
   switch (resolution.outcome) {
     case search::Outcome::exhausted:
-      if (!doubt.empty()) return {"timeout", doubt + "; without that, " + reason};
-      return {"unsolvable", reason};
+      return unsolvable(reason, uses);
     case search::Outcome::out_of_memory:
       return {"out_of_memory",
               "the searches have kept all of --memory " + std::to_string(options.megabytes) +
@@ -140,12 +147,12 @@ Solved solve(Model& model, const PlanOptions& options, const Output& output) {
                   asked.verdict == temporal::Verdict::function_unavailable ? no_functions : faulty},
                  output)};
   for (const model::Fault& fault : model::check(model))  // of what stands on these numbers
-    if (!fault.warning) return {tell({"unsolvable", fault.what + "; " + fault.remedy}, output)};
+    if (!fault.warning) return {tell(unsolvable(fault.what + "; " + fault.remedy, asked.uses), output)};
   const search::Resolution resolution =
       search::resolve(model, options.resolvers, options.threads, options.work, options.megabytes << 20U,
                       [] { return false; });
   if (resolution.outcome != search::Outcome::solved)
-    return {tell(why_not(resolution, engine::doubt_of(asked.uses), options), output)};
+    return {tell(why_not(resolution, asked.uses, options), output)};
   return {done, extraction::plan_of(*resolution.search, {"plan", "a", temporal::Time{0}}),
           resolution.search->count()};
 }

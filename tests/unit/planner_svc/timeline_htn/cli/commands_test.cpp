@@ -55,6 +55,9 @@ TEST_F(RociTimelines, TakesValuesOfExternalFunctionsFromAFile) {
   EXPECT_EQ(plan_of("blue.yaml", "values", output_), unsolved);
   EXPECT_THAT(errors_.str(), HasSubstr("timeout: not known: " + (folder_ / "values").string() +
                                        " found no way for (way gate yard) with the effort spent"));
+  put("values", "(way dock gate) unreachable\n(way gate dock) 12\n(way gate yard) 5\n(way yard gate) 5\n");
+  EXPECT_EQ(plan_of("red.yaml", "values", output_), unsolved);
+  EXPECT_THAT(errors_.str(), HasSubstr("values says that there is no (way dock gate)"));
 }
 
 TEST_F(RociTimelines, SaysWhichValueLacks) {
