@@ -374,12 +374,11 @@ bool PartialPlan::go_on(Index activity, StateId state) {
 // Lets the timeline go on by itself, through states without a command, until the condition holds.
 bool PartialPlan::follow(Index component, const Pattern& pattern, const std::vector<Index>& objects,
                          Index activity) {
-  constexpr std::size_t kMostSteps = 3;
   std::vector<StateId> path;
   StateId state = current_state(component);
   if (ground_->at(state).kind != StateKind::simple) return false;
   while (!ground_->fits(state, pattern, objects)) {
-    if (path.size() == kMostSteps) return false;
+    if (path.size() == kStepsByItself) return false;
     StateId chosen = kNone;
     for (const StateId after : ground_->next(state)) {
       const bool by_itself =

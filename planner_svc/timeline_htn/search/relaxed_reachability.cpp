@@ -16,7 +16,6 @@ using model::Behaviour, model::NeedKind, model::Pattern, model::StateKind;
 namespace {
 
 constexpr int kMostRounds = 8;
-constexpr int kStepsByItself = 3;  // that a timeline goes on by itself where a condition looks at it
 constexpr std::size_t kNamed = 3;  // states that a reason names
 
 class Relaxation {
@@ -215,7 +214,7 @@ class Relaxation {
   bool go_on_by_itself(StateId from) {
     bool more = false;
     std::vector<StateId> last{from};
-    for (int step = 0; step < kStepsByItself; ++step) {
+    for (std::size_t step = 0; step < kStepsByItself; ++step) {
       std::vector<StateId> now;
       for (const StateId one : last)
         for (const StateId after : std::vector<StateId>(ground_.next(one)))

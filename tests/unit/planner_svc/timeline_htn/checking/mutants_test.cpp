@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <fstream>
 #include <functional>
+#include <iterator>
 #include <set>
 
 #include "planner_svc/timeline_htn/checking/check.hpp"
@@ -373,6 +375,42 @@ TEST(TimelineChecker, WantsActivitiesToWaitForWhatTheyNeed) {
         temporal::compare("nav", temporal::ConditionOp::eq, temporal::state("parked", {"a", "a"}));
   }),
               Contains(HasSubstr("is false in base.at(b, b), which meets its need")));
+}
+
+// R131. The porter may hand a crate over in place of setting it down, and the plan for two crates goes on behind the first choice alone:
+// where the other one is taken for the second crate, what is seen stays as it was after the first.
+TEST(TimelineChecker, KnowsWhatADecisionLeavesAsItWasFromWhatItBringsAbout) {
+  std::ifstream in(ROCI_SOURCE_DIR "/tests/missions/porter/porter.yaml");
+  std::string text{std::istreambuf_iterator<char>(in), {}};
+  const auto edit = [&](const std::string& from, const std::string& to) {
+    ASSERT_NE(text.find(from), std::string::npos) << from;
+    text.replace(text.find(from), from.size(), to);
+  };
+  edit("    constraints: [lift before put]\n",
+       "      crane: gripper.handing_over(crate)\n"
+       "    constraints: [lift before put, lift before crane]\n"
+       "    decisions:\n      how: {resolver: ground, before: put.start, choices: {floor: {subgoals: put}, "
+       "crane: {subgoals: crane}}}\n");
+  edit("    transitions:\n      - \"empty -> lifting",
+       "      handing_over: {kind: simple, parameters: {crate: crate}, duration_s: [5, 60]}\n"
+       "    transitions:\n      - \"holding(x) -> handing_over(x)\"\n      - \"handing_over(x) -> empty\"\n"
+       "      - \"empty -> lifting");
+  edit("initial: {errand: idle}", "initial: {errand: idle, base: at(dock), gripper: empty}");
+  edit("goals: {}", "goals: {red: errand.fetched(red), blue: {state: errand.fetched(blue), after: [red]}}");
+  const Checked plan(parse(text));
+  EXPECT_THAT(plan.faults(), IsEmpty());
+  const auto leaves = [](auto& p, const std::string& name) -> temporal::Value& {
+    auto& impacts = activity(p, name).impacts;
+    return std::ranges::find(impacts, temporal::ImpactWhen::at_end, &temporal::Impact::moment)->amount;
+  };
+  EXPECT_THAT(plan.after([&](auto& p) {
+    EXPECT_EQ(temporal::to_text(leaves(p, "errand.fetching(red)")), "idle");
+    EXPECT_EQ(temporal::to_text(leaves(p, "errand.fetching(blue)")), "fetched(red)");
+  }),
+              IsEmpty());
+  EXPECT_THAT(
+      plan.after([&](auto& p) { leaves(p, "errand.fetching(blue)") = temporal::state("fetched", {"blue"}); }),
+      Contains(HasSubstr("whatever is decided, errand.fetching(blue) ends with errand.fetched(blue)")));
 }
 
 TEST(TimelineChecker, HoldsDecisionsAgainstThoseOfTheBehaviour) {
