@@ -44,9 +44,7 @@ class Times {
   }
 
  private:
-  bool is_predicted(const Pattern& pattern) const {
-    return model::is_predicted(ground_.model(), pattern.component);
-  }
+  bool is_predicted(const Pattern& pattern) const { return ground_.is_predicted(pattern.component); }
 
   // The first time from one on at which the predicted timeline is so for as long as it takes; no_bound: there is none.
   Duration next_time(const Pattern& pattern, const std::vector<Index>& objects, bool negated, NeedKind kind,

@@ -150,8 +150,8 @@ void Ground::measure_footprints() {
     }
   }
   for (Index c = 0; c < count; ++c)
-    if (model::is_predicted(*model_, c))
-      for (ComponentSet& set : footprints_) set &= ~(ComponentSet{1} << c);
+    if (model::is_predicted(*model_, c)) predicted_ |= ComponentSet{1} << c;
+  for (ComponentSet& set : footprints_) set &= ~predicted_;
 }
 
 const State& Ground::definition(StateId state) const {

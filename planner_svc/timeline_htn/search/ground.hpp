@@ -60,6 +60,9 @@ class Ground {
   bool fits(StateId state, const model::Pattern& pattern, std::span<const Index> bound) const;
   /// Returns the components that bringing about some state of this one may touch or look at; what no plan changes is none of them.
   ComponentSet footprint(Index component) const { return footprints_[component]; }
+  /// Returns the components whose timelines are predicted.
+  ComponentSet predicted() const { return predicted_; }
+  bool is_predicted(Index component) const { return (predicted_ >> component & 1U) != 0; }
   /// Returns every way to give variables from `from` on an object of their type so that the tests hold.
   std::vector<std::vector<Index>> bindings(const std::vector<model::Variable>& variables,
                                            std::vector<Index> bound,
@@ -83,6 +86,7 @@ class Ground {
   std::vector<Successors> next_;
   std::unordered_map<StateId, std::vector<Index>> distances_;  // from a state, by local number
   std::vector<ComponentSet> footprints_;
+  ComponentSet predicted_ = 0;
   std::size_t bytes_ = 0;
 };
 

@@ -38,7 +38,7 @@ PartialPlan::PartialPlan(Ground& ground, Bindings& bindings, const std::vector<I
     begun_.push_back(current_.back());
     static_cast<void>(constrain(0, tokens_.back().end, Duration{0}, ground.at(state).bounds.longest));
     const auto component = static_cast<Index>(begun_.size() - 1);
-    if (model::is_predicted(ground.model(), component)) add_predicted(component);
+    if (ground.is_predicted(component)) add_predicted(component);
   }
   windows_.assign(current_.size(), kNone);
   add_mending();
@@ -400,7 +400,7 @@ bool PartialPlan::conditions_hold(Index activity, const Behaviour& behaviour,
   for (Index i = 0; i < behaviour.conditions.size(); ++i) {
     const model::Precondition& condition = behaviour.conditions[i];
     const Index component = condition.state.component;
-    if (model::is_predicted(ground_->model(), component)) {
+    if (ground_->is_predicted(component)) {
       push({UrgentKind::condition, activity, i, kNone, 0, kNone});
       continue;
     }
@@ -432,7 +432,7 @@ bool PartialPlan::meet_need(Index needing, Index need, Index other) {
     case NeedKind::at_start:
       return constrain(met.start, one.start, Duration{0}) && constrain(one.start, met.end, Duration{0});
     case NeedKind::met_by:
-      if (met.ended == 0 && !model::is_predicted(ground_->model(), ground_->at(met.state).state.component))
+      if (met.ended == 0 && !ground_->is_predicted(ground_->at(met.state).state.component))
         set(Field::ended, other, 1);
       return constrain(met.end, one.start, Duration{0}, Duration{0});
   }
@@ -498,7 +498,7 @@ bool PartialPlan::apply(const Step& step) {
     case StepKind::condition_here:
       return take_window(step);
     case StepKind::need_here:
-      if (model::is_predicted(ground_->model(), ground_->at(tokens_[step.first].state).state.component))
+      if (ground_->is_predicted(ground_->at(tokens_[step.first].state).state.component))
         return take_window(step);
       pop();
       return meet_need(step.subject, step.second, step.first);

@@ -138,7 +138,7 @@ std::uint64_t Search::signature() const {
     const bool running = token.activity != kNone && !plan.complete(token.activity);
     out = join(out, std::uint64_t{token.state} * 4 + (running ? 1 : 0) + (token.ended != 0 ? 2 : 0));
   }
-  for (Index c = 0; c < ground_.model().components.size(); ++c)
+  for (Index c = 0; ground_.predicted() != 0 && c < ground_.model().components.size(); ++c)
     if (plan.last_window(c) != kNone) out = join(out, plan.last_window(c));
   std::uint64_t open = 0;
   for (const Index index : plan.open()) {
@@ -183,7 +183,7 @@ bool Search::may_pass_again() const {
 }
 
 bool Search::is_later_for_nothing(const Node& node) const {
-  if (pass_ == kPassThatDropsNothing || node.parent == kNone) return false;
+  if (windows_.empty() || pass_ == kPassThatDropsNothing || node.parent == kNone) return false;
   const auto windows = windows_.find(node.parent);
   return windows != windows_.end() && node.step.first != windows->second.first &&
          plan_->refusals_by_time() == windows->second.refusals;
@@ -214,7 +214,7 @@ void Search::note(const Obstacle& obstacle) {
 
 // Whether a token of the plan is of a timeline that is predicted.
 bool Search::is_predicted(Index token) const {
-  return model::is_predicted(ground_.model(), ground_.at(plan_->tokens()[token].state).state.component);
+  return ground_.is_predicted(ground_.at(plan_->tokens()[token].state).state.component);
 }
 
 void Search::expand(Index node) {

@@ -219,7 +219,7 @@ void Successors::needs(const PartialPlan& plan, const Urgent& item, std::vector<
   const model::Need& need = ground_->definition(plan.tokens()[item.subject].state).needs[item.need];
   const std::vector<Index> variables = plan.need_variables(item.subject);
   const Index component = need.state.component;
-  if (model::is_predicted(ground_->model(), component)) {
+  if (ground_->is_predicted(component)) {
     const Token& needing = plan.tokens()[item.subject];
     const TimePoint until = need.kind == model::NeedKind::during ? needing.end : needing.start;
     for (const Index token : still_to_come(plan, component, until))

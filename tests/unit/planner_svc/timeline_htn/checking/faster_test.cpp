@@ -109,6 +109,18 @@ TEST(FasterModel, WithoutAPathBothWaitForTheGroundAndReport) {
   EXPECT_EQ(count(plan, "primary_locomotion.") + count(plan, "scout_locomotion."), 0U);
 }
 
+// With the windows as they are predicted the traverse is planned so that its end leaves time for the one that is next.
+TEST(FasterModel, TheLastCommunicationIsPlannedInAWindowOfTheGround) {
+  const FlexiblePlan plan = checked_plan("ground_windows");
+  const temporal::NetworkDistances network(plan.point_count, all_constraints(plan));
+  const auto downlink =
+      std::ranges::find(plan.activities, "antenna.downlinking(traverse_done)", &PlanActivity::name);
+  ASSERT_NE(downlink, plan.activities.end());
+  EXPECT_EQ(network.between(0, downlink->start_point).lower, temporal::seconds(3600));
+  EXPECT_EQ(network.between(0, downlink->end_point).upper, temporal::seconds(5400));
+  EXPECT_EQ(count(plan, "navigation.team_cycle("), 9U);
+}
+
 TEST(FasterModel, AMarkerThatIsNotSeenAndAHazardAreMendedFirst) {
   EXPECT_THAT(names(checked_plan("marker_not_seen")), Contains("scout_locomotion.positioning(w0)"));
   EXPECT_THAT(names(checked_plan("hazard_detected")), Contains("avoid_hazard"));

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "tests/unit/planner_svc/timeline_htn/reading/windows.hpp"
 #include "tests/unit/planner_svc/timeline_htn/search/plans.hpp"
 
 namespace roci::planner::timeline_htn::cli {
@@ -69,6 +70,18 @@ TEST_F(RociTimelines, SaysWhichValueLacks) {
   put("values", "(way dock gate");
   EXPECT_EQ(plan_of("red.yaml", "values", json_), faulty);
   EXPECT_THAT(out_.str(), HasSubstr("values:1:15: error: ')' expected"));
+}
+
+TEST_F(RociTimelines, ShowsWhatIsPredictedBesideThePlan) {
+  put("windows.yaml", reading::kWindows);
+  EXPECT_EQ(plan_of("windows.yaml", "", output_), done);
+  EXPECT_THAT(out_.str(), HasSubstr("  antenna.sending(first)  [600, 610] to [660, 670]\n"));
+  EXPECT_THAT(out_.str(), HasSubstr("\npredicted: ground.hidden [0], ground.seen [100], ground.hidden [130], "
+                                    "ground.seen [600], ground.hidden [730], ground.seen [2000]\n"));
+  out_.str("");
+  EXPECT_EQ(plan_of("windows.yaml", "", json_), done);
+  const auto told = nlohmann::json::parse(out_.str());
+  EXPECT_EQ(told["predicted"]["ground"][1], (nlohmann::json{{"at_s", 100}, {"state", "ground.seen"}}));
 }
 
 TEST_F(RociTimelines, EndsWithAVerdictWhereTheMemoryIsSpent) {
