@@ -201,7 +201,7 @@ void doubt_unknown_values(Result& result) {
   const auto first = std::ranges::find_if(result.functions, is_unknown);
   if (result.verdict != Verdict::unsolvable || first == result.functions.end()) return;
   const auto count = std::ranges::count_if(result.functions, is_unknown);
-  const std::string& owner = first->answer.provenance.owner;
+  const std::string& owner = first->answer.provenance->owner;
   std::string doubt =
       "not known: " + (owner.empty() ? "the owner" : owner) + " found no way for " + application(first->call);
   if (count > 1) doubt += " and " + std::to_string(count - 1) + " more";

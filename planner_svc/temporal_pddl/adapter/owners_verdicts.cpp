@@ -73,7 +73,7 @@ std::string words_against(const std::vector<std::string>& facts, const pddl::Pro
   for (const std::string& object : with_neighbours(objects_in(facts), problem)) {
     const auto [use, proved] = against(object, uses);
     if (use == nullptr) continue;
-    const engine::Provenance& said = use->answer.provenance;
+    const engine::Provenance& said = *use->answer.provenance;
     if (!proved)
       return "no way to " + described(object, objects) + " is known: " + said.owner +
              " found none with the effort spent (" + use->call.function + ", model " + said.model_version +

@@ -13,7 +13,7 @@ namespace roci::planner::temporal_pddl::cli {
 class TableFunctions final : public engine::FunctionSource {
  public:
   TableFunctions(pddl::FunctionTables tables, std::string owner)
-      : tables_(std::move(tables)), owner_(std::move(owner)) {}
+      : tables_(std::move(tables)), owner_(engine::Provenance{std::move(owner), "", temporal::Time{0}}) {}
 
   std::vector<engine::FunctionValue> evaluate(std::span<const engine::FunctionCall> calls,
                                               const std::function<bool()>& cancelled) override;
@@ -22,7 +22,7 @@ class TableFunctions final : public engine::FunctionSource {
   engine::FunctionValue answer(const engine::FunctionCall& call) const;
 
   pddl::FunctionTables tables_;
-  std::string owner_;
+  engine::SharedProvenance owner_;
 };
 
 }  // namespace roci::planner::temporal_pddl::cli

@@ -185,10 +185,10 @@ temporal::FlexiblePlan export_plan(const Plan& plan, const std::vector<FunctionU
     if (use.answer.outcome != FunctionOutcome::value || !use.answer.is_exact() || !concerns(use, plan))
       continue;
     std::uint64_t version = 0;
-    const std::string& text = use.answer.provenance.model_version;
+    const std::string& text = use.answer.provenance->model_version;
     std::from_chars(text.data(), text.data() + text.size(), version);
     out.function_values.push_back({use.call.function, use.call.arguments, use.answer.value,
-                                   use.answer.provenance.owner, version, use.answer.provenance.time});
+                                   use.answer.provenance->owner, version, use.answer.provenance->time});
   }
   return out;
 }

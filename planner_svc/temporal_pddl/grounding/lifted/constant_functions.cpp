@@ -102,7 +102,7 @@ bool is_usable(const FunctionValue& answer) {
   const FunctionValue& answer = use.answer;
   std::string message = "external function " + describe(use.call) + ": " + to_string(answer.outcome);
   if (!answer.reason.empty()) message += ", " + answer.reason;
-  message += describe(answer.provenance);
+  message += describe(*answer.provenance);
   throw ModelFailure(Verdict::function_unavailable,
                      pddl::Diagnostic{symbols.domain_file(), symbol.declared, message,
                                       remedy_for(answer.outcome, use.call)});
