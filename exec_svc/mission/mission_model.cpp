@@ -107,6 +107,16 @@ WindowModel read_window(const Entry& entry, const MissionModel& mission) {
   return out;
 }
 
+// Of a budget; 0 where nothing is said.
+double amount_or_none(const Entry& budget, const char* key, double most) {
+  const auto entry = budget.find(key);
+  if (!entry) return 0;
+  const double amount = entry->number();
+  if (amount < 0 || amount > most)
+    entry->fail("a budget cannot be " + entry->text() + "; write a number from 0 (no bound of its own) on");
+  return amount;
+}
+
 PlannerSettings read_planner(const Entry& entry, const MissionModel& mission) {
   PlannerSettings out;
   if (!mission.has_domain() && !entry.find("engine"))
@@ -117,8 +127,8 @@ PlannerSettings read_planner(const Entry& entry, const MissionModel& mission) {
   if (const auto service = entry.find("service")) out.service = read_timeline(*service, mission.role);
   if (const auto budget = entry.find("budget")) {
     budget->allow_only({"work", "memory_mb", "wall_s", "improvement"});  // the last one is planner_svc's
-    out.work = static_cast<std::uint64_t>(budget->number_or("work", 0));
-    out.memory_mb = static_cast<std::uint32_t>(budget->number_or("memory_mb", 0));
+    out.work = static_cast<std::uint64_t>(amount_or_none(*budget, "work", 1e15));
+    out.memory_mb = static_cast<std::uint32_t>(amount_or_none(*budget, "memory_mb", 1e9));
     out.wall = seconds_or(*budget, "wall_s", 0);
   }
   out.allowance = seconds_or(entry, "allowance_s", temporal::to_seconds(out.allowance));
@@ -194,7 +204,7 @@ MissionModel read_mission(const std::filesystem::path& folder_or_file, const Exe
   out.role = role;
   root.attempt([&] { out.name = root.at("name").text(); });
   root.attempt([&] { read_model(root, out); });
-  root.attempt([&] { out.objects = read_objects(root, out.has_domain()); });
+  root.attempt([&] { out.objects = read_objects(root, out); });
   if (const auto facts = root.find("facts")) {
     if (!out.has_domain()) refuse_without_domain(root, {"facts"});
     facts->attempt([&] { out.facts = facts->texts(); });

@@ -17,6 +17,15 @@ using problem::Reserves;
 using temporal::Time;
 using temporal::Verdict;
 
+namespace {
+
+std::string ending(const PlanReply& reply) {
+  return std::string("planner call ended as ") + to_string(reply.verdict) +
+         (reply.reason.empty() ? "" : ": " + reply.reason);
+}
+
+}  // namespace
+
 void PlanningCycle::begin(Time now) {
   state_->replan_wanted = false;  // the problem holds all that is known now
   if (state_->goals.open().empty()) {
@@ -90,6 +99,7 @@ void PlanningCycle::take_reply(Time now, const PlanReply& reply) {
   } else if (reply.verdict == Verdict::solved) {
     adopt(now, reply);
   } else if (speaks_of_goals(reply.verdict)) {
+    if (ask_again_seeing(now, reply)) return;
     call_->clear_failures();
     if (relax(reply)) {
       begin(now);
@@ -225,12 +235,27 @@ bool PlanningCycle::soft_goal_would_leave(const PlanReply& reply) const {
   return soft_goal_to_give_up(reply, state_->goals, relaxed_).has_value();
 }
 
+bool PlanningCycle::ask_again_seeing(Time now, const PlanReply& reply) {
+  if (!call_->is_blind()) return false;
+  if (!call_->back_off(now)) {
+    call_->forget_lost();
+    return false;
+  }
+  const std::string away = call_->away();
+  retry(first_line(ending(reply)) + "; what it was told of may be old, as " +
+        (away.empty() ? "a service was away that observes it" : away + " is away"));
+  return true;
+}
+
 void PlanningCycle::try_again_later(Time now, const PlanReply& reply) {
-  const std::string what = std::string("planner call ended as ") + to_string(reply.verdict) +
-                           (reply.reason.empty() ? "" : ": " + reply.reason);
+  const std::string what = ending(reply);
   const bool may_pass = reply.verdict != Verdict::unsupported && reply.verdict != Verdict::invalid_input;
   if (!may_pass || !call_->back_off(now)) return safing_->make_safe(now, what);
-  state_->report(Severity::warning, "plan.retry", what + "; will be tried again");
+  retry(what);
+}
+
+void PlanningCycle::retry(const std::string& reason) {
+  state_->report(Severity::warning, "plan.retry", reason + "; will be tried again");
   state_->phase = MissionPhase::idle;
   state_->want_plan("the planner call is tried again");
   state_->wake_at(call_->not_before());

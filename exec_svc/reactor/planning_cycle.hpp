@@ -59,6 +59,10 @@ class PlanningCycle {
   void take_trial(temporal::Time now, const PlanReply& reply);
   void give_up_hard(const RelaxationStep& step);
   void try_again_later(temporal::Time now, const PlanReply& reply);
+  /// The planner says that goals are out of reach, and was asked while somebody was away who tells what is so: no goal ends
+  /// for that. False: it has been asked often enough, and is believed.
+  bool ask_again_seeing(temporal::Time now, const PlanReply& reply);
+  void retry(const std::string& reason);
   void note_planned();
   /// Times of the starts beyond what the plan asks for: fixed ones at E2, the latest where the mission says so.
   void set_start_times(temporal::FlexiblePlan& plan) const;

@@ -84,6 +84,8 @@ class SharedProvenance {
  public:
   SharedProvenance() = default;  ///< of nobody
   SharedProvenance(Provenance said) : said_(std::make_shared<const Provenance>(std::move(said))) {}
+  SharedProvenance(std::string owner, std::string model_version, temporal::Time time)
+      : SharedProvenance(Provenance{std::move(owner), std::move(model_version), time}) {}
 
   const Provenance& operator*() const { return said_ ? *said_ : nobody(); }
   const Provenance* operator->() const { return &**this; }

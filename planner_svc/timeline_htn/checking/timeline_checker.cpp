@@ -5,6 +5,7 @@
 #include <map>
 
 #include "planner_svc/timeline_htn/checking/check.hpp"
+#include "planner_svc/timeline_htn/checking/owners_values.hpp"
 #include "planner_svc/timeline_htn/model/check.hpp"
 #include "planner_svc/timeline_htn/reading/load.hpp"
 
@@ -175,7 +176,8 @@ void put_goals(const engine::Request& request, Model& model, std::vector<std::st
 
 }  // namespace
 
-std::optional<Model> model_of(const engine::Request& request, std::vector<std::string>& out) {
+std::optional<Model> model_of(const engine::Request& request, std::vector<std::string>& out,
+                              std::span<const engine::FunctionUse> values) {
   std::vector<reading::Text> texts{{"model", request.model}};
   if (!request.problem_text.empty()) texts.push_back({"problem", request.problem_text});
   mission::Findings findings;
@@ -195,6 +197,7 @@ std::optional<Model> model_of(const engine::Request& request, std::vector<std::s
     model->problem->initial.resize(model->components.size());
   }
   put_relations(request, *model);
+  put_values(values, *model);
   put_states(request, *model, out);
   put_predicted(request, *model, out);
   put_goals(request, *model, out);
@@ -206,8 +209,11 @@ std::optional<Model> model_of(const engine::Request& request, std::vector<std::s
 
 std::vector<std::string> TimelineChecker::faults(const engine::CheckedPlan& checked) const {
   std::vector<std::string> out;
-  const auto model = model_of(checked.request, out);
-  return model ? checking::faults(*model, checked.plan) : out;
+  const auto model = model_of(checked.request, out, checked.values);
+  if (!model) return out;
+  out = checking::faults(*model, checked.plan);
+  if (out.empty()) check_values(*model, checked.plan, checked.values, out);
+  return out;
 }
 
 }  // namespace roci::planner::timeline_htn::checking

@@ -48,10 +48,20 @@ struct Relation {
   std::string value{};
   friend bool operator==(const Relation&, const Relation&) = default;
 };
+/// Says that a service gives the numbers of a table: it is asked before each search, exactly (R35, R36).
+struct AskedNumbers {
+  std::string module;
+  std::string function;
+  std::optional<Index> rows_of;  ///< a relation, of whose rows alone; nothing: of all objects of the types
+  std::string place;             ///< where it says so: "file:line:column"
+  bool given = false;            ///< whether the numbers have come
+  friend bool operator==(const AskedNumbers&, const AskedNumbers&) = default;
+};
 struct NumberTable {
   std::string name;
   std::vector<Index> types;
   std::map<std::vector<Index>, double> rows;  ///< all finite
+  std::optional<AskedNumbers> asked{};        ///< then its rows come with the call to plan
   friend bool operator==(const NumberTable&, const NumberTable&) = default;
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "planner_svc/timeline_htn/search/decompositions.hpp"
+#include "planner_svc/timeline_htn/search/earliest_times.hpp"
 
 namespace roci::planner::timeline_htn::search {
 
@@ -56,6 +57,9 @@ Search::Search(const Model& model, const Resolver& resolver)
   if (const auto obstacle = out_of_reach()) {
     state_ = Outcome::exhausted;
     obstacle_ = *obstacle;
+  } else if (auto late = too_late(ground_, successors_, *plan_)) {
+    state_ = Outcome::exhausted;
+    never_reached_ = {late->goal, std::move(late->reason)};
   }
 }
 
@@ -199,6 +203,13 @@ void Search::note(const Obstacle& obstacle) {
   if (obstacle_.kind != Obstacle::Kind::none && (pass_ > 0 || depth <= farthest_)) return;
   farthest_ = depth;
   obstacle_ = obstacle;
+  waited_for_.reset();
+  for (Index c = 0; c < ground_.model().components.size(); ++c) {
+    if (plan_->last_window(c) == kNone) continue;
+    const Token& window = plan_->tokens()[plan_->last_window(c)];
+    const Duration from = plan_->network().earliest(window.start);
+    if (!waited_for_ || waited_for_->second < from) waited_for_ = {window.state, from};
+  }
 }
 
 // Whether a token of the plan is of a timeline that is predicted.
@@ -328,7 +339,12 @@ std::string Search::reason() const {
       return "no plan was found";
     case Obstacle::Kind::time:
       return "time does not permit " + wanted() + (one.behaviour == kNone ? "" : " by " + behaviour()) +
-             ": its window, the constraints round it or the horizon are too narrow";
+             ": its window, the constraints round it or the horizon are too narrow" +
+             (waited_for_ && waited_for_->second > Duration{0}
+                  ? ", and " + ground_.text(waited_for_->first) +
+                        ", which is needed before, is predicted from " +
+                        temporal::to_text(waited_for_->second) + " on"
+                  : "");
     case Obstacle::Kind::condition: {
       const auto& condition = model.behaviours[one.behaviour].conditions[one.condition];
       return behaviour() + " for " + wanted() + " asks for " + (condition.negated ? "not " : "") +

@@ -124,6 +124,8 @@ class Search {
   std::vector<PartialPlan::Mark> marks_;
   std::vector<Step> steps_;
   Obstacle obstacle_;
+  std::optional<std::pair<StateId, Duration>>
+      waited_for_;  // the last predicted state that was, and its start
   std::optional<NeverReached> never_reached_;
   bool looked_at_ = false;  // whether the relaxed reachability was
   std::size_t farthest_ = 0;

@@ -5,6 +5,7 @@
 #include <iterator>
 #include <utility>
 
+#include "planner_svc/engine/function_words.hpp"
 #include "planner_svc/temporal_pddl/call/planning_failure.hpp"
 #include "planner_svc/temporal_pddl/grounding/lifted/model_failure.hpp"
 
@@ -12,7 +13,7 @@ namespace roci::planner::temporal_pddl::grounding::lifted {
 
 using call::PlanningFailure;
 using engine::FunctionCall, engine::FunctionOutcome, engine::FunctionSource, engine::FunctionUse,
-    engine::FunctionValue, engine::Provenance;
+    engine::FunctionValue;
 using task::FunctionId;
 using task::ObjectId;
 using temporal::Verdict;
@@ -61,51 +62,9 @@ std::vector<FunctionCall> calls_of_all_tuples(const FunctionSymbol& symbol, cons
   return calls;
 }
 
-std::string describe(const FunctionCall& call) { return application(call) + " of module " + call.module; }
-
-std::string remedy_for(FunctionOutcome outcome, const FunctionCall& call) {
-  switch (outcome) {
-    case FunctionOutcome::unavailable:
-    case FunctionOutcome::owner_lost:
-      return "start the service that offers module " + call.module + ", or give the values in a file";
-    case FunctionOutcome::late:
-      return "give the owner more time, or declare fewer objects";
-    case FunctionOutcome::unknown_object:
-    case FunctionOutcome::wrong_arity:
-      return "declare the function as its owner offers it, with objects that the owner knows";
-    case FunctionOutcome::not_a_number:
-      return "the owner must answer with a finite number or with 'unreachable'";
-    case FunctionOutcome::value:
-    case FunctionOutcome::unreachable:
-    case FunctionOutcome::unknown:
-      break;
-  }
-  return "";
-}
-
-std::string describe(const Provenance& said) {
-  if (said.owner.empty()) return "";
-  std::string text = "; asked " + said.owner;
-  if (!said.model_version.empty()) {
-    text += ", model " + said.model_version + ", at " +
-            std::to_string(std::chrono::duration<double>(said.time).count()) + " s";
-  }
-  return text;
-}
-
-bool is_usable(const FunctionValue& answer) {
-  return answer.outcome == FunctionOutcome::value || answer.outcome == FunctionOutcome::unreachable ||
-         answer.outcome == FunctionOutcome::unknown;
-}
-
 [[noreturn]] void refuse(const FunctionUse& use, const Symbols& symbols, const FunctionSymbol& symbol) {
-  const FunctionValue& answer = use.answer;
-  std::string message = "external function " + describe(use.call) + ": " + to_string(answer.outcome);
-  if (!answer.reason.empty()) message += ", " + answer.reason;
-  message += describe(*answer.provenance);
   throw ModelFailure(Verdict::function_unavailable,
-                     pddl::Diagnostic{symbols.domain_file(), symbol.declared, message,
-                                      remedy_for(answer.outcome, use.call)});
+                     pddl::Diagnostic{symbols.domain_file(), symbol.declared, fault_of(use), remedy_of(use)});
 }
 
 }  // namespace

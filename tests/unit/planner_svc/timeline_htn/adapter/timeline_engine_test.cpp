@@ -85,7 +85,7 @@ TEST(TimelineEngine, WindowsOfTheRequestArePlannedWith) {
   request.goals = {goal};
   const Answer none = answer(request);
   EXPECT_EQ(none.verdict, Verdict::unsolvable);
-  EXPECT_THAT(none.reason, HasSubstr("needs ground.seen, and "));
+  EXPECT_THAT(none.reason, HasSubstr("antenna.sending(first) waits for ground.seen as predicted"));
   const auto predict = [&](int at, bool open) {
     request.predictions.push_back({"ground.window", seconds(at), open});
     request.predictions.push_back({"air.clear", seconds(at), !open});  // nobody's

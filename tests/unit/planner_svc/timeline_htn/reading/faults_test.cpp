@@ -56,6 +56,30 @@ TEST(TimelineModelFaults, NamesAreToldWithPlaceAndRemedy) {
   });
 }
 
+TEST(TimelineModelFaults, NumbersThatServicesAreAskedForAreToldWithPlaceAndRemedy) {
+  const std::string table = "metres: {arguments: [waypoint, waypoint], rows: [[wp0, wp1, 4], [wp1, wp0, 5]]}";
+  const auto asked = [&](const std::string& with) {
+    return Case{table, "metres: {arguments: [waypoint, waypoint], asked: {" + with, ""};
+  };
+  const auto expect = [&](const std::string& with, const std::string& says) {
+    Case one = asked(with);
+    one.says = says;
+    expect_faults({one});
+  };
+  expect("module: paths, rows_of: edge}, rows: [[wp0, wp1, 4]]}",
+         "m.yaml:8:90: a service is asked for the numbers of 'metres', at m.yaml:8:52; take this out, or "
+         "'asked'");
+  expect("module: paths}, symmetric: true}", "take this out, or 'asked'");
+  expect("function: metres}}", "'module'");
+  expect("module: paths, rows_of: edg}}", "unknown relation 'edg'; did you mean 'edge'?");
+  expect("module: paths, rows: edge}}", "unknown key 'rows'");
+  expect_faults(
+      {{table, "metres: {arguments: [waypoint], asked: {module: paths, rows_of: edge}}",
+        "relation 'edge' is of other types than 'metres'; name one with the same arguments, or none"}});
+  EXPECT_THAT(faults_of(with(kSound, table, asked("module: paths, rows_of: edge}}").to)), testing::IsEmpty())
+      << "of states whose numbers are still to come nothing is said";
+}
+
 TEST(TimelineModelFaults, NumbersAndLinesAreToldWithPlaceAndRemedy) {
   expect_faults({
       {"[[wp0, wp1, 4]", "[[wp0, wp1, far]", "expected a finite number, not 'far'"},
