@@ -11,7 +11,7 @@
 namespace roci::planner {
 
 using engine::FunctionCall, engine::FunctionOutcome, engine::FunctionValue, engine::Provenance,
-    engine::RemainingAction;
+    engine::SharedProvenance, engine::RemainingAction;
 using temporal::FunctionAccuracy;
 
 namespace {
@@ -209,8 +209,8 @@ std::vector<FunctionValue> values_of(const std::vector<FunctionCall>& calls, con
     return {calls.size(), FunctionValue{FunctionOutcome::unavailable, 0, asked,
                                         "it answered with another accuracy than asked for"}};
   }
-  const Provenance provenance{reply.owner(), std::to_string(reply.model_version()),
-                              temporal::Time(reply.computed_us())};
+  const SharedProvenance provenance(
+      Provenance{reply.owner(), std::to_string(reply.model_version()), temporal::Time(reply.computed_us())});
   const std::map<std::string, std::string> words = services::wire::words_of(reply);
   std::vector<FunctionValue> values;
   for (std::size_t i = 0; i < calls.size(); ++i) {

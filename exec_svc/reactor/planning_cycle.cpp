@@ -91,6 +91,7 @@ void PlanningCycle::take_reply(Time now, const PlanReply& reply) {
                       "the planner calls every problem with it invalid: " + relaxed_.refusal);
     return begin(now);
   }
+  if (speaks_of_goals(reply.verdict) && ask_again_seeing(now, reply)) return;
   if (accepted && !trials_.without.empty()) {
     take_trial(now, reply);
   } else if (reply.verdict == Verdict::solved && !relaxed_.soft_goals_left_out.empty()) {
@@ -99,7 +100,6 @@ void PlanningCycle::take_reply(Time now, const PlanReply& reply) {
   } else if (reply.verdict == Verdict::solved) {
     adopt(now, reply);
   } else if (speaks_of_goals(reply.verdict)) {
-    if (ask_again_seeing(now, reply)) return;
     call_->clear_failures();
     if (relax(reply)) {
       begin(now);

@@ -7,10 +7,12 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/temporal/duration.hpp"
@@ -77,10 +79,30 @@ struct Provenance {
   bool operator==(const Provenance&) const = default;
 };
 
+/// Is a Provenance that many values have: all values of one answer point to the same.
+class SharedProvenance {
+ public:
+  SharedProvenance() = default;  ///< of nobody
+  SharedProvenance(Provenance said) : said_(std::make_shared<const Provenance>(std::move(said))) {}
+  SharedProvenance(std::string owner, std::string model_version, temporal::Time time)
+      : SharedProvenance(Provenance{std::move(owner), std::move(model_version), time}) {}
+
+  const Provenance& operator*() const { return said_ ? *said_ : nobody(); }
+  const Provenance* operator->() const { return &**this; }
+
+ private:
+  static const Provenance& nobody() {
+    static const Provenance none;
+    return none;
+  }
+
+  std::shared_ptr<const Provenance> said_;
+};
+
 struct FunctionValue {
   FunctionOutcome outcome = FunctionOutcome::unavailable;
   double value = 0;  ///< with value: finite
-  Provenance provenance;
+  SharedProvenance provenance;
   std::string reason;  ///< the owner's own words, may be empty
   /// Of the value: an owner that has no bounds gives exact values where these are asked for.
   temporal::FunctionAccuracy accuracy = temporal::FunctionAccuracy::exact;

@@ -29,7 +29,7 @@ std::string fault_of(const FunctionUse& use) {
   std::string text = "external function " + application(use.call) + " of module " + use.call.module + ": " +
                      to_string(use.answer.outcome);
   if (!use.answer.reason.empty()) text += ", " + use.answer.reason;
-  return text + asked_of(use.answer.provenance);
+  return text + asked_of(*use.answer.provenance);
 }
 
 std::string remedy_of(const FunctionUse& use) {
@@ -59,7 +59,7 @@ std::string doubt_of(std::span<const FunctionUse> uses) {
   const auto first = std::ranges::find_if(uses, is_unknown);
   if (first == uses.end()) return {};
   const auto count = std::ranges::count_if(uses, is_unknown);
-  const std::string& owner = first->answer.provenance.owner;
+  const std::string& owner = first->answer.provenance->owner;
   std::string text =
       "not known: " + (owner.empty() ? "the owner" : owner) + " found no way for " + application(first->call);
   if (count > 1) text += " and " + std::to_string(count - 1) + " more";
@@ -73,17 +73,17 @@ std::string denial_of(std::span<const FunctionUse> uses) {
   const auto first = std::ranges::find_if(uses, is_unreachable);
   if (first == uses.end()) return {};
   const auto count = std::ranges::count_if(uses, is_unreachable);
-  return first->answer.provenance.owner + " says that there is no " + application(first->call) +
+  return first->answer.provenance->owner + " says that there is no " + application(first->call) +
          (first->answer.reason.empty() ? "" : ", " + first->answer.reason) +
          (count > 1 ? ", and " + std::to_string(count - 1) + " more" : "");
 }
 
 temporal::FunctionValueUse recorded(const FunctionUse& use) {
   std::uint64_t version = 0;
-  const std::string& text = use.answer.provenance.model_version;
+  const std::string& text = use.answer.provenance->model_version;
   std::from_chars(text.data(), text.data() + text.size(), version);
-  return {use.call.function, use.call.arguments,         use.answer.value,   use.answer.provenance.owner,
-          version,           use.answer.provenance.time, use.answer.accuracy};
+  return {use.call.function, use.call.arguments,          use.answer.value,   use.answer.provenance->owner,
+          version,           use.answer.provenance->time, use.answer.accuracy};
 }
 
 }  // namespace roci::planner::engine

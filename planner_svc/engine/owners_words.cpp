@@ -47,7 +47,7 @@ std::string words_against(const std::set<std::string>& named, const std::vector<
   for (const std::string& object : named) {
     const auto [use, proved] = against(object, uses);
     if (use == nullptr) continue;
-    const Provenance& said = use->answer.provenance;
+    const Provenance& said = *use->answer.provenance;
     if (!proved)
       return "no way to " + described(object, objects) + " is known: " + said.owner +
              " found none with the effort spent (" + use->call.function + ", model " + said.model_version +

@@ -15,7 +15,7 @@ std::vector<FunctionValue> TableFunctions::evaluate(std::span<const FunctionCall
 FunctionValue TableFunctions::answer(const FunctionCall& call) const {
   const std::string tuple = application(call);
   FunctionValue answer;
-  answer.provenance.owner = owner_;
+  answer.provenance = owner_;
   if (call.accuracy == FunctionAccuracy::lower_bound) {
     if (const auto bound = tables_.lower_bounds.find(tuple); bound != tables_.lower_bounds.end()) {
       answer.outcome = FunctionOutcome::value;

@@ -15,7 +15,7 @@ namespace roci::planner::engine {
 class TableFunctions final : public FunctionSource {
  public:
   TableFunctions(pddl::FunctionTables tables, std::string owner)
-      : tables_(std::move(tables)), owner_(std::move(owner)) {}
+      : tables_(std::move(tables)), owner_(Provenance{std::move(owner), "", {}}) {}
 
   std::vector<FunctionValue> evaluate(std::span<const FunctionCall> calls,
                                       const std::function<bool()>& cancelled) override;
@@ -24,7 +24,7 @@ class TableFunctions final : public FunctionSource {
   FunctionValue answer(const FunctionCall& call) const;
 
   pddl::FunctionTables tables_;
-  std::string owner_;
+  SharedProvenance owner_;
 };
 
 /// Returns what owners said as such a table, by which a call can be made again without them. What has no value otherwise stands in it as

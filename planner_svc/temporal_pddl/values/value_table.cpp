@@ -29,7 +29,7 @@ auto arguments_in(const std::vector<FunctionCall>& calls) {
 
 std::string broken_bound(const FunctionCall& call, const FunctionValue& bound, const FunctionValue& exact) {
   std::ostringstream text;
-  text << (exact.provenance.owner.empty() ? "the owner" : exact.provenance.owner) << " gave " << bound.value
+  text << (exact.provenance->owner.empty() ? "the owner" : exact.provenance->owner) << " gave " << bound.value
        << " as a lower bound of " << application(call) << " of module " << call.module << ", and "
        << exact.value << " as its exact value, which is less; the exact value counts";
   return text.str();

@@ -30,7 +30,7 @@ std::string text(const std::string& function, const std::vector<std::string>& ar
 bool gives(const FunctionUse& given, const FunctionValueUse& use) {
   return given.call.function == use.function && given.call.arguments == use.arguments &&
          given.answer.outcome == FunctionOutcome::value && given.answer.is_exact() &&
-         given.answer.value == use.number && given.answer.provenance.owner == use.owner &&
+         given.answer.value == use.number && given.answer.provenance->owner == use.owner &&
          use.accuracy == temporal::FunctionAccuracy::exact;
 }
 

@@ -64,9 +64,9 @@ class Search {
         uses_.push_back({task.function,
                          {task.name},
                          values[0].value,
-                         values[0].provenance.owner,
+                         values[0].provenance->owner,
                          0,
-                         values[0].provenance.time});
+                         values[0].provenance->time});
       } else {
         return engine::without_plan(Verdict::function_unavailable,
                                     task.function + " of '" + task.name + "' is not known: " +

@@ -77,7 +77,7 @@ TEST(Functions, EachOtherOutcomeIsNamed) {
         FunctionOutcome::wrong_arity, FunctionOutcome::unknown_object}) {
     MapFunctions functions = all_values();
     functions.set("(ra_move_dur b c)", outcome);
-    functions.answers["(ra_move_dur b c)"].provenance.owner = "arm_svc";
+    functions.answers["(ra_move_dur b c)"].provenance = engine::Provenance{"arm_svc", "", {}};
     functions.answers["(ra_move_dur b c)"].reason = "motor cold";
     const Result result = testing::solved(arm(), functions);
     EXPECT_EQ(result.verdict, Verdict::function_unavailable);
@@ -99,13 +99,14 @@ TEST(Functions, ANanIsNoValue) {
 
 TEST(Functions, ProvenanceComesBack) {
   MapFunctions functions = all_values();
-  functions.answers["(ra_move_dur a c)"].provenance = {"arm_svc", "7", std::chrono::microseconds(5)};
+  functions.answers["(ra_move_dur a c)"].provenance =
+      engine::Provenance{"arm_svc", "7", std::chrono::microseconds(5)};
   const Result result = testing::solved(arm(), functions);
   const auto used = std::ranges::find(
       result.functions, FunctionCall{"ef_orbitalrarmplanner", "ra_move_dur", {"a", "c"}}, &FunctionUse::call);
   ASSERT_NE(used, result.functions.end());
-  EXPECT_EQ(used->answer.provenance.owner, "arm_svc");
-  EXPECT_EQ(used->answer.provenance.model_version, "7");
+  EXPECT_EQ(used->answer.provenance->owner, "arm_svc");
+  EXPECT_EQ(used->answer.provenance->model_version, "7");
 }
 
 TEST(Functions, AShortAnswerCountsAsUnavailable) {

@@ -9,14 +9,14 @@ void TwoAccuracies::set(const std::string& application, double value, double bou
   FunctionValue& entry = exact[application];
   entry.outcome = FunctionOutcome::value;
   entry.value = value;
-  entry.provenance.owner = "arm_svc";
+  entry.provenance = engine::Provenance{"arm_svc", "", {}};
   bounds[application] = bound;
 }
 
 void TwoAccuracies::set(const std::string& application, FunctionOutcome outcome) {
   FunctionValue& entry = exact[application];
   entry.outcome = outcome;
-  entry.provenance.owner = "arm_svc";
+  entry.provenance = engine::Provenance{"arm_svc", "", {}};
   bounds.erase(application);
 }
 
@@ -31,7 +31,7 @@ std::vector<FunctionValue> TwoAccuracies::evaluate(std::span<const FunctionCall>
       FunctionValue answer;
       answer.outcome = FunctionOutcome::value;
       answer.value = bound->second;
-      answer.provenance.owner = "arm_svc";
+      answer.provenance = engine::Provenance{"arm_svc", "", {}};
       answer.accuracy = FunctionAccuracy::lower_bound;
       answers.push_back(answer);
       continue;
