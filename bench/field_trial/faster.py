@@ -17,7 +17,7 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 
 import faster_report
-from faster_flights import Flight, fly, without_repairs
+from faster_flights import Flight, Repair, fly, without_repairs
 from faster_kills import KilledFlight, fly_killing
 from flights import Programs
 
@@ -41,6 +41,16 @@ def ways(tool: Path, mission: Path, first: int, count: int) -> dict[int, float |
     return {one["seed"]: one.get("length_m") for one in map(json.loads, done.stdout.splitlines())}
 
 
+def loaded(folder: Path) -> list[Flight]:
+    """The flights of a trial that was flown before. Raises OSError, ValueError, KeyError or TypeError where none was."""
+    flights = [Flight(**one["flight"]) for one in json.loads((folder / "results.json").read_text())]
+    for flight in flights:
+        flight.repairs = [Repair(**one) for one in flight.repairs]
+    if not flights:
+        raise ValueError(f"{folder / 'results.json'} has no flight")
+    return flights
+
+
 def tell(name: str, flight: Flight | KilledFlight) -> None:
     print(f"{name}: {flight.result}, {'arrived' if flight.arrived else 'did not arrive: ' + getattr(flight, 'reason', '')}", flush=True)
     for fault in flight.faults:
@@ -59,12 +69,17 @@ def main() -> int:
     parser.add_argument("--bin", type=Path, default=ROOT / "build/release/bin", help="programs (build/release/bin)")
     parser.add_argument("--least", type=float, default=0.95, help="share that must arrive where a way exists (0.95)")
     parser.add_argument("--flown", action="store_true", help="take the flights that lie in OUT already, fly what is missing")
+    parser.add_argument("--beside", type=Path, nargs="+", default=[], help="OUT folders of other ranges of seeds, told beside this one")
     arguments = parser.parse_args()
     out, programs = arguments.out.resolve(), Programs(arguments.bin.resolve(), arguments.mission.resolve(), None)
     tool = programs.bin.parent / "tests/true-way"
     for program in (programs.rehearse, programs.bin / "roci-launch", tool):
         if not program.exists():
             parser.error(f"{program} is missing; build it: ninja -C build/release programs roci-rehearse true-way")
+    try:
+        beside = [loaded(folder) for folder in arguments.beside]
+    except (OSError, ValueError, KeyError, TypeError) as fault:
+        parser.error(f"--beside wants folders that --out has written: {fault}")
     out.mkdir(parents=True, exist_ok=True)
     exists = ways(tool, programs.mission, arguments.seed, arguments.runs)
     bare = without_repairs(programs.mission, out / "without_repairs") if arguments.unrepaired else None
@@ -82,7 +97,7 @@ def main() -> int:
             tell(f"{name} killed ({record.killed.kills}; {record.killed.dds})", record.killed)
         records.append(record)
         (out / "results.json").write_text(json.dumps([asdict(one) for one in records], indent=1))
-        faster_report.write(records, arguments.report or out / "field-trial-faster.md")
+        faster_report.write(records, arguments.report or out / "field-trial-faster.md", beside)
     broken = any(record.faults for record in records)
     with_way = [record.flight for record in records if record.flight.way_m is not None]
     short = sum(flight.arrived for flight in with_way) < arguments.least * len(with_way)

@@ -25,22 +25,28 @@ def quantiles(values: list[float]) -> str:
     return f"{ordered[len(ordered) // 2]:.2f}, at most {ordered[-1]:.2f}" if ordered else "–"
 
 
-def arrivals(records: list) -> str:
+def range_of(flights: list) -> str:
+    return f"seeds {flights[0].seed} to {flights[-1].seed}"
+
+
+def arrivals(records: list, beside: list) -> str:
+    """`beside`: flights of other ranges of seeds, a list for each."""
     rows = []
-    for name, flights in (("as it stands", [one.flight for one in records]),
-                          ("repair switched off", [one.unrepaired for one in records if one.unrepaired])):
+    for name, flights in [("as it stands", [one.flight for one in records]),
+                          ("repair switched off", [one.unrepaired for one in records if one.unrepaired]),
+                          *((range_of(other), other) for other in beside)]:
         possible = [one for one in flights if one.way_m is not None]
         rows.append([name, str(len(flights)), share(sum(one.arrived for one in possible), len(possible)),
                      str(sum(one.bogged for one in flights)), str(sum(one.entries for one in flights)),
                      f"{sum(not one.replans for one in flights)}", str(sum(len(one.replans) for one in flights))])
     out = "## Who arrives\n\n" + table(["", "flights", "arrived where a way exists", "primaries dug in", "entries into marked soil",
                                           "flights without a new plan", "new plans"], rows)
-    late = [one.flight for one in records if not one.flight.arrived]
+    late = [one for one in [one.flight for one in records] + [one for other in beside for one in other] if not one.arrived]
     out += f"\nNot arrived: seeds {seeds(late)}.\n\n"
     return out + "".join(f"- seed {one.seed}: {one.reason[:220]}\n" for one in late)
 
 
-def write(records: list, target: Path) -> None:
+def write(records: list, target: Path, beside: list = ()) -> None:
     flights = [one.flight for one in records]
     repairs = [repair for one in flights for repair in one.repairs]
     drives = [one for one in repairs if one.cause == "no-go" and one.used_s is not None]
@@ -53,7 +59,7 @@ Written by `bench/field_trial/faster.py` ([how it works](../bench/field_trial/RE
 
     roci-launch missions/faster --scenario hidden --seed {first} --dds inproc --speed max --headless --run-folder FOLDER
 
-{arrivals(records)}
+{arrivals(records, list(beside))}
 ## Repairs
 
 By the error that they are for, {len(repairs)} in all; of {sum(one.ended_well for one in repairs)} the step went on to its end without a new plan:

@@ -6,7 +6,9 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from faster_flights import cause_of, circles_of, entries_into, repairs_of, without_repairs
+import faster_report
+from faster import Record, loaded
+from faster_flights import Flight, cause_of, circles_of, entries_into, repairs_of, without_repairs
 
 ROOT = Path(__file__).resolve().parents[2]
 STEP = "p1.9-scout_locomotion.traversing_with_ss(w0, w1)"
@@ -59,6 +61,18 @@ class ReadsAFlight(unittest.TestCase):
         (one,) = repairs_of(rows, moved)
         self.assertEqual((one.cause, one.at_s, one.used_s), ("no-go", 9, 3), "to the drive on, not to the one back")
         self.assertAlmostEqual(one.allowed_s, 5 + 1.5 / 0.0125 + 300 - 9)
+
+    def test_another_range_stands_beside_this_one(self):
+        with tempfile.TemporaryDirectory() as folder:
+            folder = Path(folder)
+            repair = {"cause": "no-go", "at_s": 1.0, "used_s": None, "allowed_s": 9.0, "ended_well": False}
+            others = [{"seed": seed, "folder": "", "way_m": 16.0, "arrived": seed != 8, "reason": "out of reach", "repairs": [repair]} for seed in (7, 8)]
+            (folder / "results.json").write_text(json.dumps([{"flight": one} for one in others]))
+            page = folder / "page.md"
+            faster_report.write([Record(Flight(1, "", 16.0, arrived=True))], page, [loaded(folder)])
+            self.assertIn("| as it stands | 1 | 1 of 1 (100.0 %) |", page.read_text())
+            self.assertIn("| seeds 7 to 8 | 2 | 1 of 2 (50.0 %) |", page.read_text())
+            self.assertIn("Not arrived: seeds 8.\n\n- seed 8: out of reach", page.read_text())
 
     def test_repairs_switched_off(self):
         with tempfile.TemporaryDirectory() as folder:
