@@ -91,7 +91,9 @@ void SteppedHost::subscribe_all() {
     if (!is_ours(product.header()) || !has_room(products_, product.id(), kProducts, "data product")) return;
     engine::DataProduct heard = from_wire(product);
     engine::DataProduct& known = products_[product.id()];
-    if (known == heard) return;
+    engine::DataProduct again = known;
+    again.told = heard.told;
+    if (again == heard) return;
     known = std::move(heard);
     heard_.products.push_back(known);
     step_soon();

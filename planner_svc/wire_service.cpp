@@ -246,6 +246,7 @@ engine::DataProduct from_wire(const v1::DataProduct& in) {
   out.created = std::clamp(temporal::Time(in.created_us()), temporal::Time{0}, temporal::Time(kLatest));
   out.utility = temporal::RankVector(in.utility());
   out.fate = static_cast<engine::DataFate>(std::min<std::uint32_t>(in.fate(), v1::PRODUCT_LOST));
+  out.told = std::clamp(temporal::Time(in.header().stamp_us()), temporal::Time{0}, temporal::Time(kLatest));
   return out;
 }
 

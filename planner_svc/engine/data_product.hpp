@@ -24,6 +24,7 @@ struct DataProduct {
   temporal::Time created{0};
   temporal::RankVector utility;  ///< as computed from the data; none: it was not
   DataFate fate = DataFate::stored;
+  temporal::Time told{0};  ///< when its owner said so; who is started later hears the same
   friend bool operator==(const DataProduct&, const DataProduct&) = default;
 };
 

@@ -180,7 +180,8 @@ bool UtilityEngine::tasks_move(const std::string& timeline) const {
 }
 
 void UtilityEngine::hear_product(const engine::DataProduct& product, Time now) {
-  if (!delivery_.hear(existing(network_, chains_, *cycle_, product), now)) return;
+  const Time since = std::min(now, product.told > Time{0} ? product.told : now);
+  if (!delivery_.hear(existing(network_, chains_, *cycle_, product), since)) return;
   cycle_->doubt();
   to_look_ = true;
 }

@@ -19,15 +19,24 @@ std::optional<double> number(const temporal::timelines::Definition& timeline, co
   return static_cast<double>(state - timeline.states.begin());
 }
 
+std::optional<double> newest(const std::vector<Observation>& expected, temporal::timelines::Index timeline) {
+  std::optional<Observation> out;
+  for (const Observation& one : expected)
+    if (one.timeline == timeline && (!out || one.sampled > out->sampled)) out = one;
+  return out ? std::optional(out->value) : std::nullopt;
+}
+
 }  // namespace
 
 std::vector<std::string> faults_of(const model::Network& network, const engine::CheckedPlan& checked) {
   const temporal::Time now = checked.request.origin;
   Version version = version_of(network, checked.plan, checked.progress, now);
   if (!version.faults.empty()) return version.faults;
+  std::vector<Observation> expected = std::move(version.expected);
   Question question{.network = network, .values = version.values, .plan = std::move(version.blocks)};
   if (checked.before != nullptr) {
     Version before = version_of(network, *checked.before, checked.progress, now);
+    expected.insert(expected.end(), before.expected.begin(), before.expected.end());
     std::erase_if(before.blocks, [&](const Block& block) {
       return before.over.contains(number_of(block)) || version.broken.contains(number_of(block));
     });
@@ -48,7 +57,7 @@ std::vector<std::string> faults_of(const model::Network& network, const engine::
     if (!timeline.reported || observed == checked.request.state.end()) continue;
     const auto value = number(timeline, observed->second);
     if (!value) continue;
-    question.observations.push_back({i, now, *value});
+    question.observations.push_back({i, now, newest(expected, i).value_or(*value)});
     if (i == network.budget) question.budget = *value - timeline.lowest;
   }
   return faults(question);

@@ -115,6 +115,7 @@ class Reader {
       step.overdue = step.due && step.start + *step.duration < now_;
       step.duration = end - step.start;
       const auto state = went->second.state;
+      expect(*task, went->second);
       if (!temporal::is_over(state) || state == temporal::ActivityState::succeeded)
         effective_.insert(step.id);
       else
@@ -129,6 +130,20 @@ class Reader {
     if (activity.end_point == ends_[name->block]) whole_.insert(name->block);
     if (!known || !temporal::is_over(went->second.state)) ++running_[name->block];
     block->second.steps.push_back(step);
+  }
+
+  void expect(model::TaskIndex index, const temporal::ActivityProgress& went) {
+    const model::Task& task = network_.tasks[index];
+    const bool begins_by_itself = task.commands.empty() && !went.ended;
+    const bool has_just_done = !task.commands.empty() && went.state == temporal::ActivityState::succeeded &&
+                               now_ < *went.ended + network_.cycle.process_interval;
+    for (const model::Impact& impact : task.impacts) {
+      if (!model::sets_reported_state(network_, impact)) continue;
+      const bool at_end = impact.moment == temporal::ImpactWhen::at_end;
+      if (at_end ? has_just_done : begins_by_itself)
+        out_.expected.push_back({impact.timeline, at_end ? *went.ended : *went.started,
+                                 model::evaluate(impact.amount, out_.values)});
+    }
   }
 
   // A block that is not whole, or of which a step has failed, is no plan any more. What has begun of it counts; what is committed does up

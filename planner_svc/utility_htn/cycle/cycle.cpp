@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "planner_svc/utility_htn/cycle/early_end.hpp"
@@ -19,6 +20,8 @@ bool waits(const Link& link) { return link.stage == Stage::planned || link.stage
 
 // Nothing is expected to be later than it is by more than this.
 constexpr Duration kFarthestExpectation = std::chrono::hours(1);
+
+constexpr double kNothingReported = -std::numeric_limits<double>::infinity();
 
 // A search places and takes back all the time, and few tasks stand on one timeline: so changes shall be cheap.
 temporal::timelines::Extent lines_from(Time origin) { return {.origin = origin, .block = 24}; }
@@ -54,6 +57,9 @@ void Cycle::observe(Index timeline, Time sampled, double value) {
   const auto& definition = network_.timelines[timeline];
   const double foreseen = timelines_.value(timeline, sampled);
   timelines_.observe(timeline, sampled, value);
+  if (const auto known = reported_.find(timeline);
+      known == reported_.end() || known->second.sampled <= sampled)
+    reported_.insert_or_assign(timeline, Reported{sampled, value});
   if (definition.kind == temporal::timelines::Kind::state) {
     to_optimize_ |= foreseen != value;
     return;
@@ -99,12 +105,27 @@ void Cycle::ended(TaskId task, Time at, bool succeeded, const std::string& cause
   one->end = at;
   one->stage = succeeded ? Stage::succeeded : Stage::failed;
   if (succeeded && placed) timelines_.move(task, one->start, at);
+  if (const model::Task& done = network_.tasks[one->task]; succeeded && !done.commands.empty())
+    for (const model::Impact& impact : done.impacts)
+      if (model::sets_reported_state(network_, impact)) unreported_[impact.timeline] = at;
   if (succeeded || !placed) return;
   timelines_.remove(task);  // what failed has no effect; what it has cost is observed
   doom(task);
   edit_network(one->task);
   const model::Task& failed = network_.tasks[one->task];
   notes_.push_back(failed.id + " failed" + (cause.empty() ? "" : ": " + cause));
+}
+
+// What a command was to bring about and nobody has reported for a whole interval has not come about: the report before it stands.
+void Cycle::believe_reports(Time now) {
+  std::erase_if(unreported_, [&](const auto& unreported) {
+    const auto [timeline, since] = unreported;
+    const auto newest = reported_.find(timeline);
+    if (newest == reported_.end() || newest->second.sampled > since) return true;
+    if (now < since + network_.cycle.process_interval) return false;
+    observe(timeline, now, newest->second.value);
+    return true;
+  });
 }
 
 // What follows a link that has failed never gets what it waits for.
@@ -148,6 +169,7 @@ void Cycle::nothing_runs(Time now) {
 
 void Cycle::resume(const Past& past, std::vector<Block> blocks, std::uint32_t last_block, Time now) {
   past_ = past;
+  unreported_.clear();
   for (const TaskIndex task : past.withdrawn) requested_.erase(task);
   last_block_ = last_block;
   timelines_ = temporal::timelines::Timelines(network_.timelines, lines_from(now));
@@ -169,6 +191,7 @@ Report Cycle::run(Time now) {
   // Before the past is folded: what is left of a failed block may have its time there.
   for (Block& one : blocks_)
     if (one.failed()) abandon(one, "", report);
+  believe_reports(now);
   fit_downlinks();
   does(Activity::commit, commit(now));
   if (consolidate(now)) report.done.push_back(Activity::consolidate);  // the plan is the same
@@ -392,7 +415,9 @@ double Cycle::budget() const {
 }
 
 bool Cycle::end_with_budget(Time now, Report& report) {
-  const auto ends = early_end(network_, past_.values, timelines_, blocks_, now);
+  const auto newest = reported_.find(network_.budget);
+  const double reported = newest != reported_.end() ? newest->second.value : kNothingReported;
+  const auto ends = early_end(network_, past_.values, timelines_, blocks_, now, reported);
   if (!ends) {
     if (plan_end_ <= now) plan_end_ = network_.cycle.plan_end;  // it lasts after all
     return false;

@@ -102,6 +102,7 @@ class Cycle {
   Block* block(std::uint32_t number);
   Link* link(TaskId task);
   void doom(TaskId failed);
+  void believe_reports(temporal::Time now);
   bool commit(temporal::Time now);
   bool follow(temporal::Time now);
   temporal::Time expected(temporal::Time due, temporal::Time now) const;
@@ -179,6 +180,13 @@ class Cycle {
   bool scheduled_ = false;          // ever
   bool to_optimize_ = false;        // the situation is another one
   std::vector<double> deviation_;   // by timeline, of observations, since it was optimized last
+  struct Reported {
+    temporal::Time sampled{0};
+    double value = 0;
+  };
+  std::map<temporal::timelines::Index, Reported> reported_;  // by timeline: the newest observation
+  // By timeline: when a command that was to move it ended, and nothing was observed since.
+  std::map<temporal::timelines::Index, temporal::Time> unreported_;
 };
 
 }  // namespace roci::planner::utility_htn::cycle

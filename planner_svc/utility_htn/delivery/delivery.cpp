@@ -84,6 +84,7 @@ bool Delivery::hear(Existing product, Time now) {
     if (at->fate == Fate::stored && product.fate != Fate::stored) last_sent_ = std::max(last_sent_, now);
     *at = std::move(product);
   } else {
+    if (product.fate == Fate::sent || product.fate == Fate::received) last_sent_ = std::max(last_sent_, now);
     existing_.insert(at, std::move(product));
     products_.insert(products_.begin() + index, assessor::ExistingProduct{});
   }
@@ -180,6 +181,9 @@ void Delivery::join(search::Problem& problem, Time now) {
   problem.downlink = [this, &values = problem.values, now](const search::PlannedData& planned) {
     return admits(planned, values, now);
   };
+  problem.later = [this, &values = problem.values](const search::PlannedData& planned) {
+    return next_sol(planned, values);
+  };
 }
 
 Delivery::Question Delivery::question(const search::PlannedData& planned, const model::Values& values,
@@ -217,10 +221,13 @@ Delivery::Question Delivery::question(const search::PlannedData& planned, const 
 // The radio does not break off what it has begun. If it takes longer than what is left, other data must not have that room.
 void Delivery::keep_what_is_sent(Question& question, Time now) const {
   for (std::size_t w = 0; w < question.windows.size(); ++w) {
-    const auto told = told_.find(question.downlinks[w].id);
-    if (question.downlinks[w].start >= now || told == told_.end()) continue;
+    const search::PlannedDownlink& running = question.downlinks[w];
+    if (running.start >= now) continue;
+    const auto told = told_.find(running.id);
+    const std::vector<std::string> order =
+        told != told_.end() ? told->second : sent_by(running, question, question.windows[w]);
     const auto exists = question.standing.begin() + static_cast<std::ptrdiff_t>(question.existing);
-    for (const std::string& id : told->second) {
+    for (const std::string& id : order) {
       const auto found = std::find_if(question.standing.begin(), exists,
                                       [&](const DataProduct& one) { return one.id == id; });
       if (found == exists) continue;
@@ -235,6 +242,20 @@ void Delivery::keep_what_is_sent(Question& question, Time now) const {
       break;
     }
   }
+}
+
+// What a schedule that another planner has told lets a downlink send that runs, as far as it is known. It goes on whoever plans.
+std::vector<std::string> Delivery::sent_by(const search::PlannedDownlink& downlink, const Question& question,
+                                           const downlink::Window& left) const {
+  std::vector<std::string> out;
+  if (has_told_) return out;
+  const double room = temporal::to_seconds(downlink.end - downlink.start) * left.bytes_per_s;
+  const std::vector<DataProduct> exist(
+      question.standing.begin(), question.standing.begin() + static_cast<std::ptrdiff_t>(question.existing));
+  for (const std::size_t p : sending_order(exist))
+    if (static_cast<double>(exist[p].bytes) <= room && exist[p].created <= left.start)
+      out.push_back(exist[p].id);
+  return out;
 }
 
 // Returns the joules of what was executed in a sol.
@@ -258,6 +279,18 @@ bool Delivery::keeps_limits(const search::PlannedData& planned, const model::Val
     added.insert(window.sol);
   }
   return std::ranges::all_of(added, [&](std::uint32_t sol) { return joules[sol] + spent_in(sol) <= all; });
+}
+
+std::optional<Time> Delivery::next_sol(const search::PlannedData& planned,
+                                       const model::Values& values) const {
+  const std::set<std::uint32_t> overdrawn = overdrawn_sols(planned.downlinks, values);
+  std::optional<std::uint32_t> first;
+  for (std::size_t i = planned.committed_downlinks; i < planned.downlinks.size(); ++i) {
+    const downlink::Window window = rules_.window(planned.downlinks[i], values);
+    if (Rules::joules(window) > window.energy_limit_j) return std::nullopt;
+    if (overdrawn.contains(window.sol)) first = std::min(first.value_or(window.sol), window.sol);
+  }
+  return first ? std::optional(rules_.end_of_sol(*first, values)) : std::nullopt;
 }
 
 bool Delivery::admits(const search::PlannedData& planned, const model::Values& values, Time now) {

@@ -87,10 +87,12 @@ class Delivery {
   /// Takes in a product's newest state; returns whether anything is new. Its request is what it was as soon as nobody knows it any more,
   /// since the plan forgets chains that have ended. A score that is negative or not finite counts as 0, one above a
   /// million as a million.
-  /// `now` is when it was heard: a downlink that runs has been sending the next product since the last one was sent.
+  /// `now` is when its owner said so: a downlink that runs has been sending the next product since the last one was sent.
   bool hear(Existing product, temporal::Time now = temporal::Time{0});
-  /// Takes in what downlinks were told to send, in order: of one that runs, the first that is still on board is being sent.
+  /// Takes in what downlinks were told to send, in order: of one that runs, the first that is still on board is being sent. Before anything was
+  /// told somebody else may have told it, in the same order: then that is the first one that a downlink of its length has room for.
   void told(std::map<temporal::timelines::TaskId, std::vector<std::string>> products) {
+    has_told_ = true;
     told_ = std::move(products);
   }
   /// Takes in what an executed downlink took, for the limit of its sol. `activity` is unique; what is told again counts once.
@@ -126,6 +128,10 @@ class Delivery {
 
   /// Returns whether the data that are not standing yet have room, each in time, beside all that stands.
   bool admits(const search::PlannedData& planned, const model::Values& values, temporal::Time now);
+  /// Returns when the first sol ends whose limit is exceeded by downlinks that are not committed; none where it is no limit of a sol that they
+  /// exceed.
+  std::optional<temporal::Time> next_sol(const search::PlannedData& planned,
+                                         const model::Values& values) const;
   /// Returns which data go with which downlink.
   Schedule schedule(const search::PlannedData& planned, const model::Values& values,
                     temporal::Time now) const;
@@ -137,6 +143,8 @@ class Delivery {
   Question question(const search::PlannedData& planned, const model::Values& values,
                     temporal::Time now) const;
   void keep_what_is_sent(Question& question, temporal::Time now) const;
+  std::vector<std::string> sent_by(const search::PlannedDownlink& downlink, const Question& question,
+                                   const downlink::Window& left) const;
   double spent_in(std::uint32_t sol) const;
   bool keeps_limits(const search::PlannedData& planned, const model::Values& values) const;
 
@@ -148,6 +156,7 @@ class Delivery {
   std::set<std::uint64_t> executed_;
   Counts counts_;
   temporal::Time last_sent_{0};  // when the newest product was sent
+  bool has_told_ = false;
   std::map<temporal::timelines::TaskId, std::vector<std::string>> told_;
 };
 

@@ -33,6 +33,10 @@ std::uint32_t Rules::sol_of(temporal::Time time, const model::Values& values) co
   return static_cast<std::uint32_t>(std::clamp(temporal::to_seconds(time) / length, 0.0, 4e9));
 }
 
+temporal::Time Rules::end_of_sol(std::uint32_t sol, const model::Values& values) const {
+  return temporal::seconds((static_cast<double>(sol) + 1) * std::max(1.0, value(sol_length_, values, kDay)));
+}
+
 downlink::Window Rules::window(const search::PlannedDownlink& planned, const model::Values& values) const {
   downlink::Window out;
   out.start = planned.start;

@@ -29,6 +29,8 @@ class Rules {
   double downlink_limit_j(const model::Values& values) const { return value(downlink_limit_, values, kNone); }
   double sol_limit_j(const model::Values& values) const { return value(sol_limit_, values, kNone); }
   std::uint32_t sol_of(temporal::Time time, const model::Values& values) const;
+  /// Returns when the sol after this one begins.
+  temporal::Time end_of_sol(std::uint32_t sol, const model::Values& values) const;
 
  private:
   static constexpr double kNone = std::numeric_limits<double>::infinity();

@@ -195,6 +195,8 @@ double duration_s(const Task& task, const Values& values);
 temporal::timelines::Footprint footprint(const Task& task, const Values& values);
 /// Returns what a primitive task takes from the budget, in its unit: deltas and rates over the duration (R87).
 double cost(const Network& network, const Task& task, const Values& values);
+/// Returns whether the impact sets a state that somebody reports: whether it has come about is seen by that.
+bool sets_reported_state(const Network& network, const Impact& impact);
 /// Returns what the task draws from the budget per second while it runs; negative: it charges it.
 double draw(const Network& network, const Task& task, const Values& values);
 temporal::RankVector utility(const Task& task, const Values& values);

@@ -43,6 +43,12 @@ double cost(const Network& network, const Task& task, const Values& values) {
   return out;
 }
 
+bool sets_reported_state(const Network& network, const Impact& impact) {
+  const auto& timeline = network.timelines[impact.timeline];
+  return impact.kind == temporal::ImpactKind::assign && timeline.reported &&
+         timeline.kind == temporal::timelines::Kind::state;
+}
+
 double draw(const Network& network, const Task& task, const Values& values) {
   double out = 0;
   for (const Impact& impact : task.impacts)

@@ -114,28 +114,36 @@ void Exploration::enqueue(NodeId id) {
   queue_.push({node.utility + best.ratio, table_.request(best.chain).priority, id, best.chain, best.utility});
 }
 
-// Places the entry's chain after the plan here; where that can be done, a new node comes.
+// Places the entry's chain after the plan here; where that can be done, a new node comes. Downlinks for which their sol has no energy left are
+// tried in later ones.
 void Exploration::extend(const Entry& entry, Statistics& statistics) {
   const std::size_t mark = problem_.anchored.mark();
-  std::optional<std::vector<Time>> starts =
-      problem_.scheduler.schedule(table_.links(entry.chain), problem_.anchored);
-  if (!starts) {
-    ++statistics.unplaced;
-    return;
-  }
-  Placed added{entry.chain, std::move(*starts)};
+  std::optional<Time> downlinks_from;
+  Placed added;
   RankVector utility;
-  std::uint64_t* lost = nullptr;
-  if (nodes_.known(added)) {
-    lost = &statistics.duplicates;
-  } else if (!utility_of(added, entry, utility)) {
-    lost = &statistics.broken_rules;
-  } else if (!gets_downlink(added)) {
-    lost = &statistics.without_downlink;
-  }
-  if (lost != nullptr) {
-    ++*lost;
+  for (int sols = 1;; ++sols) {
+    std::optional<std::vector<Time>> starts = place(entry.chain, downlinks_from);
+    if (!starts) {
+      ++(downlinks_from ? statistics.without_downlink : statistics.unplaced);
+      return;
+    }
+    added = {entry.chain, std::move(*starts)};
+    std::uint64_t* lost = nullptr;
+    if (nodes_.known(added)) {
+      lost = &statistics.duplicates;
+    } else if (!utility_of(added, entry, utility)) {
+      lost = &statistics.broken_rules;
+    } else if (problem_.downlink) {
+      const PlannedData data = data_with(added);
+      if (problem_.downlink(data)) break;
+      downlinks_from = problem_.later && sols < kMostSols ? problem_.later(data) : std::nullopt;
+      if (!downlinks_from) lost = &statistics.without_downlink;
+    } else {
+      break;
+    }
     problem_.anchored.undo(mark);
+    if (lost == nullptr) continue;
+    ++*lost;
     return;
   }
   const double cost = rounded(nodes_[entry.node].cost + table_.cost(entry.chain));
@@ -178,11 +186,21 @@ bool Exploration::utility_of(const Placed& added, const Entry& entry, RankVector
   return true;
 }
 
-bool Exploration::gets_downlink(const Placed& added) const {
-  if (!problem_.downlink) return true;
-  PlannedData data = committed_;
-  for (const Placed& placed : all_placed(&added)) table_.add_data(placed, data);
-  return problem_.downlink(data);
+PlannedData Exploration::data_with(const Placed& added) const {
+  PlannedData out = committed_;
+  for (const Placed& placed : all_placed(&added)) table_.add_data(placed, out);
+  return out;
+}
+
+std::optional<std::vector<Time>> Exploration::place(std::uint32_t chain,
+                                                    std::optional<Time> downlinks_from) const {
+  const std::span<const Link> links = table_.links(chain);
+  if (!downlinks_from) return problem_.scheduler.schedule(links, problem_.anchored);
+  std::vector<Link> later(links.begin(), links.end());
+  for (std::size_t i = 0; i < later.size(); ++i)
+    if (problem_.network.tasks[table_.chain(chain).links[i].task].downlinks)
+      later[i].starts.earliest = std::max(later[i].starts.earliest, *downlinks_from);
+  return problem_.scheduler.schedule(later, problem_.anchored);
 }
 
 // Lists what is held fixed, the plan here, and perhaps one chain more.

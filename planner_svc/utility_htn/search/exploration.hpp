@@ -47,8 +47,10 @@ class Exploration {
   void find_prospects(NodeId id);
   void enqueue(NodeId id);
   void extend(const Entry& entry, Statistics& statistics);
+  std::optional<std::vector<temporal::Time>> place(std::uint32_t chain,
+                                                   std::optional<temporal::Time> downlinks_from) const;
+  PlannedData data_with(const Placed& added) const;
   bool utility_of(const Placed& added, const Entry& entry, temporal::RankVector& out) const;
-  bool gets_downlink(const Placed& added) const;
   std::vector<Placed> all_placed(const Placed* added) const;
 
   const Problem& problem_;

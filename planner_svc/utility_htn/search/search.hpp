@@ -49,6 +49,13 @@ model::DataProduct predicted(const model::Task& request, const model::Task& task
 /// Says whether everything that a partial plan would generate gets its downlink (R127).
 using DownlinkQuestion = std::function<bool(const PlannedData&)>;
 
+/// Says of a partial plan whose answer was "no" from when on its uncommitted downlinks might do better, since another sol has a limit of its
+/// own (R111); none: at no other time.
+using LaterDownlinks = std::function<std::optional<temporal::Time>(const PlannedData&)>;
+
+/// So many sols are tried for the downlinks of one chain.
+inline constexpr int kMostSols = 4;
+
 /// Is what is to be planned. All that it refers to outlives it.
 struct Problem {
   const model::Network& network;
@@ -69,6 +76,7 @@ struct Problem {
   std::vector<model::TaskIndex> closed{};    ///< requests that are done, failed for good or withdrawn
   temporal::timelines::TaskId first_id = 0;  ///< see task_id()
   DownlinkQuestion downlink{};               ///< none: every product gets its downlink
+  LaterDownlinks later{};                    ///< none: a chain whose data get no downlink is not tried later
   std::function<bool()> stop{};  ///< asked for every entry; true ends the search with what there is
 };
 

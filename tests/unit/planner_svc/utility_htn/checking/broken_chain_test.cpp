@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "planner_svc/utility_htn/checking/utility_checker.hpp"
+#include "tests/unit/planner_svc/utility_htn/checking/told_plan.hpp"
 #include "tests/unit/planner_svc/utility_htn/cycle/toy_network.hpp"
 
 namespace roci::planner::utility_htn::checking {
@@ -11,22 +12,6 @@ namespace {
 using namespace std::chrono_literals;
 using temporal::ActivityState, temporal::CommitState, temporal::FlexiblePlan, temporal::Time;
 using ::testing::HasSubstr, ::testing::IsEmpty;
-
-/// Adds a link of a block that starts then.
-void add(FlexiblePlan& plan, const std::string& task, int block, int link, Time start, Time length,
-         CommitState commit) {
-  temporal::PlanActivity one;
-  one.id = task + "#" + std::to_string(block) + "." + std::to_string(link);
-  one.name = task;
-  one.start_point = plan.point_count;
-  one.end_point = plan.point_count + 1;
-  one.duration_lower = length;
-  one.commit = commit;
-  plan.point_count += 2;
-  plan.constraints.push_back(
-      {temporal::origin_point, one.start_point, temporal::ConstraintKind::window, start, temporal::no_bound});
-  plan.activities.push_back(one);
-}
 
 FlexiblePlan with_sample() {
   FlexiblePlan out;

@@ -204,7 +204,8 @@ TEST_F(CycleTest, LessEnergyThanForeseenMakesRoomForTheBetterOne) {
   cycle.observe(testing::kBattery, 5s, 500);  // 350 J for the sample, 150 J for the view, 300 J for idling
   const Report report = cycle.run(10s);
   EXPECT_THAT(requests(cycle), Contains("sample"));
-  EXPECT_THAT(report.notes, Contains(HasSubstr("'view/plain' is not planned, since it costs 150 of 'battery'")));
+  EXPECT_THAT(report.notes,
+              Contains(HasSubstr("'view/plain' is not planned, since it costs 150 of 'battery'")));
   EXPECT_THAT(cycle.timelines().conflicts(40s, temporal::no_bound), IsEmpty());
 }
 
@@ -307,6 +308,39 @@ TEST_F(CycleTest, WhereTheBudgetDoesNotLastTheMissionEndsBefore) {
   EXPECT_NO_THROW(cycle.ended(task_id(load.number, 0), end + 60s, true));
   cycle.run(end + 60s);
   EXPECT_THAT(cycle.past().done, Contains(chains_.chains[load.chain].task));
+}
+
+// What the load has drawn since the newest report is not reported yet: a budget that lasts by the report lasts for whoever judges the plan.
+TEST_F(CycleTest, ABudgetThatLastsByItsNewestReportLasts) {
+  Cycle cycle = make();
+  cycle.run(Time{0});
+  const Block load = block_of_request(cycle, "idle");
+  const Time start = load.links.front().start;
+  cycle.run(start);
+  cycle.begun(task_id(load.number, 0), start);
+  cycle.observe(testing::kBattery, start + 5s, 290);
+  EXPECT_THAT(cycle.run(start + 10s).notes, Not(Contains(HasSubstr("does not last")))) << "290 s are left";
+  cycle.observe(testing::kBattery, start + 15s, 280);
+  EXPECT_THAT(cycle.run(start + 19s).notes, Contains(HasSubstr("does not last"))) << "281 s are left";
+}
+
+// A command may say that it has succeeded although nothing has come of it; of a state only changes are reported.
+TEST_F(CycleTest, WhatACommandWasToBringAboutAndNobodyReportsHasNotComeAbout) {
+  network_.timelines[testing::kSite].reported = true;
+  network_.tasks[task_named(network_, "dig")].commands = {{}};
+  for (const bool comes_about : {false, true}) {
+    Cycle cycle = make();
+    cycle.observe(testing::kSite, Time{0}, 0);
+    const Block first = sample_in(cycle);
+    const Time end = first.links.front().end;
+    cycle.begun(task_id(first.number, 0), first.links.front().start);
+    cycle.ended(task_id(first.number, 0), end, true);
+    cycle.run(end + 5s);
+    EXPECT_EQ(cycle.timelines().value(testing::kSite, end + 5s), 1) << "the report may be on its way";
+    if (comes_about) cycle.observe(testing::kSite, end + 6s, 1);
+    cycle.run(end + 20s);
+    EXPECT_EQ(cycle.timelines().value(testing::kSite, end + 20s), comes_about ? 1 : 0);
+  }
 }
 
 // A view of Earth does not end with the battery; a plan without it would take what is in view for what stays so.
@@ -461,6 +495,32 @@ TEST_F(TwoSites, ASiteThatIsGivenUpDoesNotHoldUpTheOthers) {
   EXPECT_THAT(when_given_up_, Contains("open_1")) << "at once";
   EXPECT_THAT(done_, ElementsAre("open_1", "sample_1"));
   EXPECT_THAT(cycle.closed(now), Contains(task_named(network_, "sample_0")));
+}
+
+// A sample waits until something is mended: what the map leads to behind it must not stay where it was planned, before it.
+TEST_F(TwoSites, WhatTheMapLedToThroughSomethingThatRepairTookOutGoesWithIt) {
+  model::Task& mend = add("mend");
+  mend.opens = 600s;
+  mend.impacts.push_back({testing::kHealth, temporal::ImpactKind::assign, temporal::ImpactWhen::at_end, {0}});
+  network_.tasks[task_named(network_, "sample_0")].constraints.push_back(
+      {.timeline = testing::kHealth, .states = 1});
+  chains_ = flattening::flatten_all(network_);
+  map_ = std::make_unique<assessor::SubwayAssessor>(network_, chains_);
+  Cycle cycle = make_with_map();
+  cycle.run(Time{0});
+  const auto start_of = [&](const std::string& id) {
+    return block_of_request(cycle, id).links.front().start;
+  };
+  ASSERT_LT(start_of("sample_1"), 600s);
+  cycle.observe(testing::kHealth, 5s, 1);
+  const Report report = cycle.run(10s);
+  EXPECT_THAT(report.done, Contains(Activity::repair));
+  EXPECT_THAT(report.notes, Contains("open_1 is taken out: it breaks a rule of the mission"));
+  EXPECT_GE(start_of("sample_0"), 650s);
+  for (const std::string& id : requests(cycle)) {
+    if (!id.ends_with("_1")) continue;
+    EXPECT_GT(start_of(id), start_of("sample_0")) << id;
+  }
 }
 
 TEST_F(TwoSites, WhatWasGivenUpStaysSoUntilSomebodyAsks) {

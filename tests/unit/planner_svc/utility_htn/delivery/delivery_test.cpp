@@ -118,7 +118,9 @@ TEST_F(DeliveryTest, ADownlinkThatRunsHasOnlyWhatIsLeftOfItsTime) {
   Existing first = stored("first", Tier::mandatory, 120);
   first.fate = Fate::sent;
   delivery_->hear(first, begun + 12s);
-  delivery_->hear(stored("more", Tier::mandatory, 120));
+  Existing more = stored("more", Tier::mandatory, 120);
+  more.data.created = begun + 13s;
+  delivery_->hear(more);
   EXPECT_THAT(sent(begun + 13s), ElementsAre("second"));
 }
 
@@ -142,6 +144,27 @@ TEST_F(DeliveryTest, WhatIsBeingSentKeepsItsRoomThoughItTakesLongerThanIsLeft) {
   ASSERT_THAT(plan.left_out, SizeIs(1));
   EXPECT_EQ(plan.left_out.front().product, "left over");
   EXPECT_TRUE(plan.products.at("second").exists);
+}
+
+// The same for a planner that was started while the radio sends: what was sent before, and when, it hears from who keeps the data.
+TEST_F(DeliveryTest, APlannerThatIsStartedWithinADownlinkKnowsWhatIsBeingSent) {
+  task("dig").products.clear();
+  start();
+  planned();
+  const search::PlannedData one{{}, {cycle_->data().downlinks.front()}, 0, 0};
+  const Time begun = one.downlinks.front().start;
+  delivery_->hear(stored("too large", Tier::mandatory, 500, 9));
+  delivery_->hear(stored("second", Tier::mandatory, 80));
+  delivery_->hear(stored("left over", Tier::residual, 60));
+  Existing first = stored("first", Tier::mandatory, 120);
+  first.fate = Fate::sent;
+  delivery_->hear(first, begun + 13s);  // 70 bytes are left, 80 are being sent
+  const Schedule plan = delivery_->schedule(one, cycle_->past().values, begun + 14s);
+  EXPECT_THAT(plan.downlinks.front().products, ElementsAre("second"));
+  EXPECT_EQ(plan.downlinks.front().takes, 8s);
+  std::vector<std::string> left_out;
+  for (const Unsent& each : plan.left_out) left_out.push_back(each.product);
+  EXPECT_THAT(left_out, ::testing::UnorderedElementsAre("too large", "left over"));
 }
 
 TEST_F(DeliveryTest, TiersGoInTheirOrderWhenThereIsTooLittleRoom) {
@@ -281,13 +304,41 @@ TEST_F(LongSessions, AreNoLongerThanTheLimitOfTheirSolPermitsBesideOthers) {
 TEST_F(LongSessions, TakeTheirRealTimeFromTheirSol) {
   add_parameter("sol_limit_j", 350);
   task("idle").impacts.clear();  // there is energy enough
+  task("view").closes = 86400s;
   begin();
   cycle_->withdraw(task_named(network_, "view"));
   wait_for_it(600);
   cycle_->run(20s);
   ASSERT_EQ(session(), 60s);
   cycle_->request(task_named(network_, "view"));
-  EXPECT_THAT(planned(30s), Not(Contains("view"))) << "50 J are left of the sol";
+  EXPECT_THAT(planned(30s), Not(Contains("view"))) << "50 J are left of the sol, in which it has to be done";
+}
+
+// Where a sol has no energy left for a downlink, the next one has.
+TEST_F(DeliveryTest, WhatItsSolHasNoEnergyForIsSentInALaterOne) {
+  add_parameter("sol_limit_j", 150);
+  add_parameter("sol_s", 300);
+  task("idle").impacts.clear();
+  EXPECT_THAT(planned(), ElementsAre("idle", "sample", "view"));
+  std::set<std::uint32_t> sols;
+  for (const search::PlannedDownlink& one : cycle_->data().downlinks)
+    sols.insert(delivery_->sol_of(one.start, cycle_->past().values));
+  EXPECT_THAT(sols, ElementsAre(0, 1));
+}
+
+// So what gave way because of its sol comes in a later one.
+TEST_F(LongSessions, WhatGaveWayToItsSolIsPlannedInALaterOne) {
+  add_parameter("sol_limit_j", 350);
+  add_parameter("sol_s", 400);
+  task("idle").impacts.clear();
+  begin();
+  cycle_->withdraw(task_named(network_, "view"));
+  wait_for_it(600);
+  cycle_->run(20s);
+  ASSERT_EQ(session(), 60s);
+  cycle_->request(task_named(network_, "view"));
+  EXPECT_THAT(planned(30s), Contains("view"));
+  EXPECT_GE(cycle_->data().downlinks.back().start, 400s);
 }
 
 // What is late moves to a sol in which another downlink is planned.
