@@ -257,6 +257,7 @@ class ExecService final : public services::Service {
   void take(goals::GoalRecord goal) {
     if (!intake_.admits(goal.request, inputs_.goals, node_.now())) return;
     inputs_.handed_over.push_back(std::move(goal));
+    crash_.pass("after-hand-over");
     step_soon();
   }
 

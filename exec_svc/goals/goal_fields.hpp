@@ -21,7 +21,7 @@ void fields(A& a, archive::Of<GoalRequest, A>& v) {
 }
 template <class A>
 void fields(A& a, archive::Of<GoalRecord, A>& v) {
-  a(v.request, v.state, v.reason, v.arrival, v.plan_version, v.answers, v.revision);
+  a(v.request, v.state, v.reason, v.arrival, v.plan_version, v.answers, v.revision, v.before);
 }
 
 }  // namespace roci::exec::goals

@@ -44,6 +44,8 @@ std::optional<GoalRecord> merged(const GoalRecord& ours, const GoalRecord& their
     out.reason = "recalled by " + out.request.key.issuer;
   }
   if (same_record(out, ours)) return std::nullopt;
+  for (const SampleId& sample : theirs.before) note_before(out, sample);
+  for (const SampleId& sample : {ours.answers, theirs.answers}) note_before(out, sample);
   return out;
 }
 

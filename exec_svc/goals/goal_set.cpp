@@ -4,6 +4,7 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <utility>
 
 #include "core/words/nearest_word.hpp"
 #include "exec_svc/goals/goal_merge.hpp"
@@ -39,7 +40,38 @@ std::string keys_of(const Map& map) {
   return out;
 }
 
+constexpr std::size_t kBefore = 16;  // samples; of a goal few are on the topic at a time
+
+bool same_sender(const SampleId& one, const SampleId& other) {
+  return one.sender == other.sender && one.incarnation == other.incarnation;
+}
+
+// Heard before the newest one, or said by a service that was started anew and says what it said before: neither is a new wish.
+bool is_old(const GoalRecord& record, const GoalRequest& request) {
+  const SampleId& sample = request.sample;
+  const bool heard = std::ranges::any_of(record.before, [&](const SampleId& before) {
+    return same_sender(before, sample) && sample.number <= before.number;
+  });
+  const SampleId& own = record.request.sample;
+  GoalRequest wish = record.request;
+  wish.recalled = false;
+  return heard || (own.incarnation > 0 && own.sender == sample.sender &&
+                   sample.incarnation > own.incarnation && same_request(wish, request));
+}
+
 }  // namespace
+
+void note_before(GoalRecord& record, const SampleId& sample) {
+  if (sample.sender.empty() || same_sender(sample, record.answers)) return;
+  const auto known = std::ranges::find_if(
+      record.before, [&](const SampleId& before) { return same_sender(before, sample); });
+  if (known != record.before.end()) {
+    known->number = std::max(known->number, sample.number);
+    return;
+  }
+  record.before.push_back(sample);
+  if (record.before.size() > kBefore) record.before.erase(record.before.begin());
+}
 
 std::map<std::string, std::string> template_values(const GoalRequest& goal) {
   auto values = goal.arguments;
@@ -182,15 +214,22 @@ GoalSet::Submission GoalSet::submit(const GoalRequest& request, temporal::Time n
     GoalRecord& record = found->second;
     if (request.sample == record.answers && same_request(record.request, request))
       return {Disposition::known, &record};
-    record.answers = request.sample;
+    if (is_old(record, request)) return {Disposition::known, &record};
+    const SampleId before = std::exchange(record.answers, request.sample);
+    note_before(record, before);
     return {change(record, request, now), &record};
   }
   std::string fault = request.recalled ? "there is no such goal to recall" : fault_of(request, now);
   const bool good = fault.empty();
   GoalRecord& record = records_[request.key];
-  record = {
-      request,       good ? GoalState::pending : GoalState::rejected, std::move(fault), next_arrival_++, 0,
-      request.sample};
+  record = {request,
+            good ? GoalState::pending : GoalState::rejected,
+            std::move(fault),
+            next_arrival_++,
+            0,
+            request.sample,
+            0,
+            {}};
   return {good ? Disposition::accepted : Disposition::rejected, &record};
 }
 

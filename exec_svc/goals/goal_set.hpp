@@ -65,7 +65,13 @@ struct GoalRecord {
   std::uint32_t plan_version = 0;
   SampleId answers;  ///< the newest request of this key, also one that was refused or changed nothing
   std::uint32_t revision = 0;  ///< rises with each change and recall that is taken
+  /// The newest request of each other sender before `answers`, oldest first. Who says a goal keeps its newest sample on the
+  /// topic, so that it is heard again, after one that came later, by an executive that is started anew, takes over or was cut off.
+  std::vector<SampleId> before;
 };
+
+/// Notes that this sample of the goal was heard before the one that the record answers. The newest 16 are kept.
+void note_before(GoalRecord& record, const SampleId& sample);
 
 /// Who holds what is acknowledged: this executive alone, or both of a pair. In the order of AckStage in idl/goal.idl.
 enum class AckStage { journaled, held_by_both };
@@ -78,7 +84,7 @@ class GoalSet {
 
   /// What became of a request.
   enum class Disposition {
-    known,     ///< this very sample: nothing is to be told
+    known,     ///< this very sample, or an older one: nothing is to be told
     repeated,  ///< the same wish in a new sample, or a recall that is too late: it is answered, nothing else
     refused,   ///< the goal stays as it was
     rejected,

@@ -12,11 +12,12 @@
 namespace roci::exec::journal {
 
 /// In the order of one turn.
-inline constexpr std::array<std::string_view, 10> kCrashPoints{
-    "after-goal",          ///< a goal came in
-    "after-order",         ///< an order came in, nothing is decided
-    "after-ack",           ///< the owner answered a command: it has been carried out, or is
-    "after-answer",        ///< the planner answered
+inline constexpr std::array<std::string_view, 11> kCrashPoints{
+    "after-goal",       ///< a goal came in
+    "after-hand-over",  ///< the other one of a pair handed over a goal (exec_svc/standby), nothing is decided
+    "after-order",      ///< an order came in, nothing is decided
+    "after-ack",        ///< the owner answered a command: it has been carried out, or is
+    "after-answer",     ///< the planner answered
     "before-write-ahead",  ///< all inputs of a turn are there, nothing is journaled
     "after-write-ahead",   ///< inputs and decisions are durable, nothing was sent
     "after-copy",          ///< the follower has them too (exec_svc/standby), nothing was sent

@@ -21,11 +21,14 @@ nlohmann::json to_json(const SampleId& sample) {
   return {{"sender", sample.sender}, {"incarnation", sample.incarnation}, {"number", sample.number}};
 }
 
+SampleId sample_in(const nlohmann::json& json) {
+  return {json.at("sender").get<std::string>(), json.at("incarnation").get<std::uint32_t>(),
+          json.at("number").get<std::uint64_t>()};
+}
+
 SampleId sample_in(const nlohmann::json& json, const char* key) {
   const auto found = json.find(key);
-  if (found == json.end()) return {};  // of an earlier version
-  return {found->at("sender").get<std::string>(), found->at("incarnation").get<std::uint32_t>(),
-          found->at("number").get<std::uint64_t>()};
+  return found == json.end() ? SampleId{} : sample_in(*found);  // of an earlier version
 }
 
 std::string encode(const GoalRecord& record) {
@@ -45,6 +48,7 @@ std::string encode(const GoalRecord& record) {
   if (goal.preferred != temporal::no_bound) out["preferred"] = goal.preferred.count();
   if (!goal.robot.empty()) out["robot"] = goal.robot;
   if (record.revision != 0) out["revision"] = record.revision;
+  for (const SampleId& sample : record.before) out["before"].push_back(to_json(sample));
   // Rejected goals may hold anything.
   return out.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
@@ -88,6 +92,8 @@ void decode(GoalKey key, const std::string& text, GoalRecord& record) {
   goal.sample = sample_in(json, "said_in");
   record.answers = sample_in(json, "answers");
   record.revision = json.value("revision", std::uint32_t{0});
+  for (const nlohmann::json& sample : json.value("before", nlohmann::json::array()))
+    goals::note_before(record, sample_in(sample));
 }
 
 }  // namespace

@@ -42,6 +42,13 @@ int no_mission(const lib::MissionView& view) {
     std::cerr << "\n";
     return kNoMission;
   }
+  if (const std::string waiting = view.leaderless(); !waiting.empty()) {
+    std::cerr << "roci: no executive leads: " << printable(waiting)
+              << " is there and would, but an owner of commands is dead, cut off or led by the other one; "
+                 "its log names the owner, "
+                 "which has to be started or reached again\n";
+    return kNoMission;
+  }
   std::cerr << "roci: exec_svc did not answer within " << kAnswerLimit.count() / 1000
             << " s; is the mission running there (roci status)?\n";
   return kNoMission;

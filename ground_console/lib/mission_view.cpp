@@ -215,6 +215,15 @@ const v1::LeaseMessage* MissionView::leader() const {
   return leader;
 }
 
+std::string MissionView::leaderless() const {
+  std::string out;
+  for (const auto& [name, member] : members_) {
+    if (member.exec_role() == v1::EXEC_LEADING) return "";
+    if (member.searching()) out += (out.empty() ? "" : ", ") + name.first + " (" + name.second + ")";
+  }
+  return out;
+}
+
 std::vector<std::string> MissionView::executives() const {
   std::vector<std::string> out;
   for (const auto& [name, mission] : missions_) out.push_back(name);

@@ -90,6 +90,8 @@ class MissionView {
   const std::map<std::string, v1::Heartbeat>& services() const { return heartbeats_; }
   /// Of executive()'s pair the one that leads in the latest epoch; null without a pair.
   const v1::LeaseMessage* leader() const;
+  /// Names the executives of pairs that are heard and look for a leader in vain, while none leads; else "".
+  std::string leaderless() const;
   const std::map<std::pair<std::string, std::string>, v1::Hazard>& hazards() const { return hazards_; }
   /// Where each robot was, oldest first: a robot is whatever observes its `<name>.x` and `<name>.y`, in
   /// metres. Long ways are thinned out to at most kWay places.

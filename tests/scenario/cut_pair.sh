@@ -3,10 +3,10 @@
 #   cut_pair.sh BIN_FOLDER MISSION DDS DOMAIN CUT CLOCK SPEED
 # CUT: between (the two do not hear each other), first (its cable is out), leader (the switch of the first is silent), second (its),
 # robot (the first executive and the robot do not hear each other, which the second one does), handover (the same, and the first one
-# is killed as soon as it begins to hand over).
+# is killed as soon as it begins to hand over), merging (as leader, and the second one dies when the first hands over what it has acknowledged meanwhile).
 # The hosts are network namespaces of its own, on a bridge in a fourth; no packet leaves them. Needs root.
 # Prints steps as ground_and_kills.sh does: flying, cut (the pair as the robot's host sees it), add (a goal sent
-# meanwhile), recall (of goal depot, with CUT leader, from the host that is cut off), healed, ended (goals as they are in the
+# meanwhile), recall (of goal depot, with CUT leader or merging, from the host that is cut off), healed, ended (goals as they are in the
 # end), and, when all is ended, robot, first, second (exit code and summary of each launcher), begun (what the robot did) and
 # led (how often each executive began to lead).
 set -uo pipefail
@@ -49,18 +49,24 @@ part() {  # CUT on|off
     between) for port in first second; do bridge -n $net link set dev $port isolated $2; done ;;
     robot | handover) for port in first robot; do bridge -n $net link set dev $port isolated $2; done ;;
     first) ip -n $net link set first "$([[ $2 == on ]] && echo down || echo up)" ;;
-    leader) bridge -n $net link set dev first state "$([[ $2 == on ]] && echo 0 || echo 3)" ;;
+    leader | merging) bridge -n $net link set dev first state "$([[ $2 == on ]] && echo 0 || echo 3)" ;;
     second) bridge -n $net link set dev second state "$([[ $2 == on ]] && echo 0 || echo 3)" ;;
   esac
+}
+
+executive_of() {  # launcher: the process
+  pgrep -P "$(pgrep -P $1 roci-launch || echo $1)" exec_svc
 }
 
 launch robot arm_svc,pathplan_svc,planner_svc,science_svc,sim_svc &
 robot=$!
 launch first exec_svc --standby &
 first=$!
+[[ $cut == merging ]] && export ROCI_CRASH=,after-hand-over:1  # it leads in epoch 2
 launch second exec_svc.standby --standby &
 second=$!
 until_status flying robot '"leader":"first".*"standby_ready":true.*"phase":"executing"'
+served=$(executive_of $second)
 part $cut on
 case $cut in
   between) until_status cut robot '"leader":"first".*"standby_ready":false' ;;
@@ -70,14 +76,14 @@ case $cut in
     ;;
   handover)
     until_log first 'stands down: it lacks'
-    kill -KILL "$(pgrep -P "$(pgrep -P $first roci-launch || echo $first)" exec_svc)"
+    kill -KILL "$(executive_of $first)"
     until_status cut robot '"leader":"second"'
     ;;
   *) until_status cut robot '"leader":"second"' ;;
 esac
 step add $? "$(roci robot goal add more photo x=60 y=45)"
 ended='("state":"achieved".*){4}'
-if [[ $cut == leader ]]; then
+if [[ $cut == leader || $cut == merging ]]; then
   recalled=$(roci first goal cancel depot)
   step recall $? "$recalled"
   ended='"id":"depot"[^}]*"state":"recalled"'
@@ -85,6 +91,7 @@ fi
 part $cut off
 until_status healed robot '"standby_ready":true'
 until_status ended robot "$ended"
+[[ $cut == merging ]] && step died 0 "[$(executive_of $second), $served]"
 kill -TERM $robot $first $second 2>/dev/null
 for host in robot first second; do
   wait ${!host}

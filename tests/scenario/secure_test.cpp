@@ -6,6 +6,7 @@
 
 #include "tests/contract/secure/key_ring.hpp"
 #include "tests/scenario/flight.hpp"
+#include "tests/scenario/hung_flight.hpp"
 
 namespace roci::scenario {
 namespace {
@@ -51,6 +52,14 @@ TEST_P(SecureFlight, OfTwoRoversGivesTheTraceOfThePlainOne) {
 
 INSTANTIATE_TEST_SUITE_P(Transports, SecureFlight, ::testing::Values("fastdds", "cyclonedds", "mixed"),
                          [](const auto& test) { return test.param; });
+
+// Under the simulated clock nothing goes on without who drives it, secure or not; what was taken in stands in the journal.
+TEST(SecureClock, AMasterThatFallsSilentEndsTheRunAsAPlainOneDoes) {
+  const services::contract::KeyRing ring(kMission);
+  ::setenv("ROCI_SECURE", ring.path().c_str(), 1);  // for the consoles, too
+  expect_ended({"clock", "mixed", "", "sim_svc", ""});
+  ::unsetenv("ROCI_SECURE");
+}
 
 Ended launch(const std::string& more) {
   return run("timeout 60 roci-launch " + kMission + " --speed max --headless " + more + " 2>&1");

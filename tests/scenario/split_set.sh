@@ -5,7 +5,7 @@
 # first hears scout and nobody else, and second hears all but scout and first. It is cut when the scout does its first command, and healed when
 # each executive has said what it lacks, the scout has done its command, and a console at world has then waited in vain for an executive that leads.
 # The hosts are network namespaces of its own, on a bridge in a sixth; no packet leaves them. Needs root.
-# Prints "step<TAB>exit code<TAB>output" for the steps flying, split (the event), lacks (what second says that it lacks), nobody (that console's exit code),
+# Prints "step<TAB>exit code<TAB>output" for the steps flying, split (the event), lacks (what second says that it lacks), nobody (what that console says),
 # untouched (what the world saw done until then), whole (the event), and, when all is over, goal (the event), world (exit code and summary of its launcher), effects (what the
 # world saw done) and led (how often each began to lead).
 set -uo pipefail
@@ -66,7 +66,8 @@ part_all on
 step split 0 "$(until_line '"lead.split"' "$folder/events")"
 step lacks 0 "\"$(until_line 'would lead, since' "$folder/second"/exec_svc*.log)\""
 until_line '"kind":"press"' "$folder/world/effects.jsonl" >/dev/null
-step nobody $(roci world status >"$folder/asked" 2>&1; echo $?) null
+asked=$(roci world status 2>&1 >/dev/null)
+step nobody $? "\"$(tail -n 1 <<<"$asked")\""
 step untouched 0 "$(effects)"
 part_all off
 step whole 0 "$(until_line '"lead.whole"' "$folder/events")"

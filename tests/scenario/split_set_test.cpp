@@ -49,6 +49,7 @@ TEST_P(SplitSet, NobodyLeadsUntilItIsWhole) {
   EXPECT_TRUE(steps["lacks"].printed.is_string()) << ended.output;
   EXPECT_THAT(steps["lacks"].printed.dump(), HasSubstr("lacks the leases of scout.locomotion"));
   EXPECT_EQ(steps["nobody"].exit_code, 3) << "no executive answers that side";
+  EXPECT_THAT(steps["nobody"].printed.dump(), HasSubstr("no executive leads: exec_svc (second)"));
 
   // What one had begun ends, and nothing else begins, though it is due.
   ASSERT_EQ(steps["untouched"].printed.size(), 2U) << ended.output;

@@ -47,6 +47,19 @@ TEST(GoalMerge, ARecallBeatsAllButAnAchievedGoal) {
   EXPECT_EQ(state_of(merged(recalled(), goal(GoalState::achieved))), GoalState::achieved);
 }
 
+// Who gave the goal says it again to an executive that leads anew; that is older than the recall.
+TEST(GoalMerge, WhatWasSaidBeforeARecallStaysKnown) {
+  GoalRecord ours = goal(GoalState::planned);
+  ours.request.sample = ours.answers = {"sim_svc", 1, 3};
+  GoalRecord theirs = recalled();
+  theirs.answers = {"roci-7", 0, 1};
+  theirs.before = {{"roci-6", 0, 9}};
+  const auto both = merged(ours, theirs);
+  ASSERT_TRUE(both);
+  EXPECT_EQ(both->answers, theirs.answers);
+  EXPECT_EQ(both->before, (std::vector<SampleId>{{"roci-6", 0, 9}, {"sim_svc", 1, 3}}));
+}
+
 TEST(GoalMerge, WhatTheOtherAchievedIsAchieved) {
   EXPECT_EQ(state_of(merged(goal(GoalState::planned), goal(GoalState::achieved))), GoalState::achieved);
   EXPECT_FALSE(merged(goal(GoalState::achieved), goal(GoalState::pending)));

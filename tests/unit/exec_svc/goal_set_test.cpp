@@ -63,6 +63,58 @@ TEST_F(GoalSetTest, EachSampleIsAnsweredOnce) {
   EXPECT_EQ(goals.find(goal.key)->state, GoalState::achieved);
 }
 
+// Who joins anew hears the newest sample of each sender, also of one that came before what another one has said since.
+TEST_F(GoalSetTest, WhatWasSaidBeforeIsNoNewWish) {
+  using Disposition = GoalSet::Disposition;
+  const auto say = [&](const std::string& sender, std::uint32_t incarnation, std::uint64_t number,
+                       bool recalled, const char* x = "50") {
+    GoalRequest goal = photo("a");
+    goal.arguments["x"] = x;
+    goal.recalled = recalled;
+    goal.sample = {sender, incarnation, number};
+    return goals.submit(goal, seconds(100)).taken;
+  };
+  EXPECT_EQ(say("sim_svc", 1, 3, false), Disposition::accepted);
+  EXPECT_EQ(say("roci-7", 0, 1, false, "60"), Disposition::accepted) << "a change";
+  EXPECT_EQ(say("sim_svc", 1, 3, false), Disposition::known);
+  EXPECT_EQ(say("roci-8", 0, 1, true, "60"), Disposition::recalled);
+  EXPECT_EQ(say("sim_svc", 1, 3, false), Disposition::known);
+  EXPECT_EQ(say("roci-7", 0, 1, false, "60"), Disposition::known);
+  const auto* record = goals.find(photo("a").key);
+  EXPECT_EQ(record->state, GoalState::recalled);
+  EXPECT_EQ(record->answers.sender, "roci-8");
+  EXPECT_EQ(say("roci-7", 0, 2, false, "60"), Disposition::accepted) << "said anew";
+}
+
+// A service that died says what it said before in its next incarnation.
+TEST_F(GoalSetTest, WhatAServiceSaysAgainAfterItsDeathIsNoNewWish) {
+  using Disposition = GoalSet::Disposition;
+  GoalRequest goal = photo("a");
+  goal.sample = {"sim_svc", 1, 3};
+  goals.submit(goal, seconds(100));
+  GoalRequest recall = goal;
+  recall.recalled = true;
+  recall.sample = {"roci-8", 0, 1};
+  goals.submit(recall, seconds(100));
+  goal.sample = {"sim_svc", 2, 1};
+  EXPECT_EQ(goals.submit(goal, seconds(100)).taken, Disposition::known);
+  EXPECT_EQ(goals.find(goal.key)->state, GoalState::recalled);
+  goal.arguments["x"] = "60";
+  goal.sample.number = 2;
+  EXPECT_EQ(goals.submit(goal, seconds(100)).taken, Disposition::accepted) << "another wish";
+}
+
+TEST_F(GoalSetTest, OfWhatWasSaidBeforeTheNewestAreKept) {
+  GoalRequest goal = photo("a");
+  for (std::uint64_t i = 1; i <= 40; ++i) {
+    goal.sample = {"roci-" + std::to_string(i), 0, 1};
+    goals.submit(goal, seconds(100));
+  }
+  const auto& before = goals.find(goal.key)->before;
+  ASSERT_EQ(before.size(), 16U);
+  EXPECT_EQ(before.back().sender, "roci-39");
+}
+
 TEST_F(GoalSetTest, AGoalDoesNotNameItself) {
   GoalRequest drop = photo("depot");
   drop.kind = "drop_sample";

@@ -51,6 +51,7 @@ TEST_F(JournalTest, GoalsComeBackAsTheyWere) {
   record.plan_version = 3;
   record.request.sample = {"roci-7", 0, 1};
   record.answers = {"roci-8", 2, 1ULL << 40};
+  record.before = {{"sim_svc", 1, 3}, {"roci-7", 0, 1}};
   {
     Journal journal(file, Durability::power);
     journal.put_goal(record);
@@ -64,6 +65,7 @@ TEST_F(JournalTest, GoalsComeBackAsTheyWere) {
   EXPECT_EQ(goals[0].arrival, record.arrival);
   EXPECT_EQ(goals[0].plan_version, record.plan_version);
   EXPECT_EQ(goals[0].answers, record.answers);
+  EXPECT_EQ(goals[0].before, record.before);
 }
 
 // Rejected goals may hold anything, and their record must not keep the executive from starting again.

@@ -233,5 +233,25 @@ TEST(Names, OfValuesFromANewerVersionAreUnknown) {
   EXPECT_STREQ(lib::name_of(v1::PHASE_SAFE), "safe");
 }
 
+// A pair of which nobody leads, as an owner of commands is away.
+TEST(Pair, WhoLooksForALeaderInVainIsNamedWhileNobodyLeads) {
+  lib::MissionView view;
+  EXPECT_EQ(view.leaderless(), "");
+  v1::LeaseMessage second;
+  second.executive("exec_svc");
+  second.member("second");
+  second.exec_role(v1::EXEC_FOLLOWING);
+  view.take(second);
+  EXPECT_EQ(view.leaderless(), "") << "it has just come";
+  second.searching(true);
+  view.take(second);
+  EXPECT_EQ(view.leaderless(), "exec_svc (second)");
+  v1::LeaseMessage first = second;
+  first.member("first");
+  first.exec_role(v1::EXEC_LEADING);
+  view.take(first);
+  EXPECT_EQ(view.leaderless(), "");
+}
+
 }  // namespace
 }  // namespace roci::console
