@@ -209,13 +209,12 @@ TEST_P(Knowing, ATwinBringsHomeLittleMore) {
     EXPECT_GE(home[rank], 0.9 * most[rank] - 1e-9) << foreseen.ranks[rank];
 }
 
-// Surroundings of 85 K instead of 100 K: what is heated takes longer to be warm and draws more, and plans say so once it was measured.
+// Surroundings of 85 K instead of 100 K: what is heated takes more, and plans say so once it was measured.
 class Cold : public Knowing {};
-TEST_P(Cold, HeatingIsForeseenToBeLongerAndDearer) {
+TEST_P(Cold, HeatingIsForeseenToBeDearer) {
   const Heating cold = foreseen_collection(hear(GetParam())),
                 usual = foreseen_collection(hear("all_positive"));
   EXPECT_GT(cold.power_w, usual.power_w + 1);
-  EXPECT_GT(cold.duration_s, usual.duration_s + 2) << "the arm is warm some seconds later";
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenarios, Knowing,
