@@ -99,9 +99,7 @@ class ExecService final : public services::Service {
         planner_(node, settings, mission_, journal_, [this](PlanReply reply) { take(std::move(reply)); }),
         presence_(node, journal_, owners_of(mission_), mission_.executive.owner_return,
                   {[this](const services::health::PeerChange& change) { heed(change); },
-                   [this](const std::string& service, const std::string& cause) {
-                     inputs_.losses.push_back({service, cause});
-                   },
+                   [this](const std::string& service, const std::string& cause) { lose(service, cause); },
                    [this](const std::string& service) { inputs_.arrivals.push_back(service); },
                    [this] { step_soon(); }}),
         publisher_(node, mission_, epoch, crash_),
@@ -278,8 +276,13 @@ class ExecService final : public services::Service {
   void heed(const services::health::PeerChange& change) {
     publisher_.forget_told(change.service);
     if (change.alive) return;
-    sources_.forget(change.service);
     publisher_.lose_owner(change.service);
+  }
+
+  void lose(const std::string& service, const std::string& cause) {
+    const bool observes = sources_.observes(service) || owners_of(mission_).contains(service);
+    inputs_.losses.push_back({service, cause, observes});
+    sources_.forget(service);
   }
 
   void take(const v1::Observation& observation) {

@@ -116,14 +116,16 @@ class PairProcess {
   }
 
   void run() {
-    for (bool superseded = false; !stop_.asked();) {
+    bool superseded = false;
+    for (bool told_split = false; !stop_.asked();) {
       Lease lease(self_, lease_, persisted_term_.read(), superseded, moment(), owners_of(mission_));
       const auto lead = follow(lease);
       if (!lead) return;
       log(*lead, lease);
-      const auto end = this->lead(lease, *lead);
+      const auto end = this->lead(lease, *lead, told_split);
       if (!end) return;
       superseded = end->superseded;
+      told_split = end->told_split;
       services::log::warning("exec_svc (" + options_.run.pair + ") stands down: " + end->what());
     }
   }
@@ -170,7 +172,7 @@ class PairProcess {
 
   // Leads until another member does. Returns nothing if the run is over. Under the simulated clock the epoch
   // is the incarnation, so the clock drops who led before.
-  std::optional<StandDown> lead(Lease& lease, const Lease::Turn& turn) {
+  std::optional<StandDown> lead(Lease& lease, const Lease::Turn& turn, bool told_split) {
     auto transport = connect();
     if (!transport) return std::nullopt;
     services::node::NodeOptions options = options_.node;
@@ -181,7 +183,7 @@ class PairProcess {
     const services::TimeWatch time_watch(node, options_.time);
     const services::process::ClockWatch clock_watch(node, options_.run.run_folder);
     try {
-      LeaderService leading(node, options_.node.name, lease, journal_, persisted_term_);
+      LeaderService leading(node, options_.node.name, lease, journal_, persisted_term_, told_split);
       const auto executive = make_executive(node, options_.run, journal_, leading, turn.doubtful,
                                             GoalsApart(journal_.file(), durability_for(options_.node)));
       const InterruptibleNode reach(stop_, node);

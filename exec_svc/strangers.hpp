@@ -1,6 +1,7 @@
 /// Who may be believed of those whom an executive hears, and what operators are told of the others.
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <map>
 #include <set>
@@ -22,6 +23,10 @@ class TimelineSources {
   std::string source(const std::string& timeline) const {
     const auto found = sources_.find(timeline);
     return found == sources_.end() ? "" : found->second;
+  }
+  /// Whether any timeline has it for its source.
+  bool observes(const std::string& service) const {
+    return std::ranges::any_of(sources_, [&](const auto& one) { return one.second == service; });
   }
   /// The service is lost; another one may take its place.
   void forget(const std::string& service) {

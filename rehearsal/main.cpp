@@ -126,6 +126,9 @@ int main(int argc, char** argv) {
   }
   try {
     return rehearse(arguments);
+  } catch (const std::invalid_argument& error) {
+    std::cerr << "roci-rehearse: " << error.what() << "\n";
+    return kBadInput;
   } catch (const std::runtime_error& error) {
     std::cerr << "roci-rehearse: " << error.what() << "\n";
     return kBadInput;

@@ -130,18 +130,27 @@ def circles_of(folder: Path) -> list[tuple[float, float, float, float]]:
     file = folder / "primary.path.hazards"
     if not file.exists() or not (folder / "events.jsonl").exists():  # only rehearsals write down what maps say
         return []
-    marked = [one for one in json.loads(file.read_text()) if one["kind"] == "soil"]
-    versions = []  # since when the map had how many hazards
+    waiting = [one for one in json.loads(file.read_text()) if one["kind"] == "soil"]
+    found_at, versions = {}, []  # since when the map had how many hazards
     for one in lines(folder / "events.jsonl"):
         found = re.search(r"the map has version \d+ with (\d+) hazards", one["text"])
         if one["sender"] == "primary.path" and found:
             versions.append((one["time_us"] / 1e6, int(found[1])))
-    marked.sort(key=lambda one: int(re.sub(r"\D", "", one["id"]) or 0))
+        if found := re.search(r"says No-Go for \S+ \(([\w-]+),", one["text"]):
+            found_at[found[1]] = one["time_us"] / 1e6
+
+    def when(one: dict) -> tuple[float, int]:
+        return found_at.get(one["id"], 0.0), int(re.sub(r"\D", "", one["id"]) or 0)
+
     out = []
-    for number, one in enumerate(marked, 1):
-        since = next((at for at, count in versions if count >= number), 0.0)
-        out.append((one["x_m"], one["y_m"], one["radius_m"], since))
-    return out
+    for at, count in versions:
+        while len(out) < count and waiting:
+            # What the primary has found itself is on its map at once, what the scout has found when it is told.
+            known = [one for one in waiting if when(one)[0] <= at] or waiting
+            one = min(known, key=lambda one: (not one["id"].startswith("primary"), when(one)))
+            waiting.remove(one)
+            out.append((one["x_m"], one["y_m"], one["radius_m"], at))
+    return out + [(one["x_m"], one["y_m"], one["radius_m"], 0.0) for one in sorted(waiting, key=when)]
 
 
 def entries_into(circles: list[tuple[float, float, float, float]], trace: list[tuple[float, str]]) -> int:

@@ -38,6 +38,19 @@ class ReadsAFlight(unittest.TestCase):
             (folder / "events.jsonl").write_text("".join(json.dumps(one) + "\n" for one in changed))
             self.assertEqual(circles_of(folder), [(7.0, 2.0, 0.65, 10.0), (1.0, 2.0, 0.65, 20.0)])
 
+    def test_a_circle_of_the_primarys_own_is_on_its_map_at_once(self):
+        with tempfile.TemporaryDirectory() as folder:
+            folder = Path(folder)
+            hazard = {"kind": "soil", "radius_m": 0.65, "y_m": 2.0}
+            found = [("scout-soil-1", 1.0, 5), ("primary-soil-1", 2.0, 9), ("scout-soil-2", 3.0, 15)]
+            (folder / "primary.path.hazards").write_text(json.dumps([{**hazard, "id": name, "x_m": x} for name, x, _ in found]))
+            events = [{"sender": "sim_svc", "text": f"{name.split('-')[0]} says No-Go for primary ({name}, wheel)", "time_us": at * 1e6}
+                      for name, _, at in found]
+            events += [{"sender": "primary.path", "text": f"the map has version {n} with {n} hazards", "time_us": at * 1e6}
+                       for n, at in ((1, 9), (3, 20))]
+            (folder / "events.jsonl").write_text("".join(json.dumps(one) + "\n" for one in events))
+            self.assertEqual([(x, since) for x, _, _, since in circles_of(folder)], [(2.0, 9), (1.0, 20), (3.0, 20)])
+
     def test_repairs_with_the_time_that_they_had(self):
         rows = [(5_000_000, "trace", f"5000000 command {STEP} 1 action=0 scout.locomotion scout_locomotion TraverseWithSS from=w0 to=w1"),
                 (9_000_000, "trace", f"9000000 ack {STEP} 1 stage=0 scout.locomotion repairing drive: no-go, the wheel says No-Go")]

@@ -8,8 +8,11 @@ from pathlib import Path
 
 import orbital_reference
 import problem
+from drop_order import broken_drop_order
+from flights import Flight, GoalEnd
 from orbital_bound import Bound, clauses
 from orbital_reference import Scheduler
+from trials import TRIALS
 
 MISSION = Path(__file__).resolve().parents[2] / "missions" / "orbital" / "mission.yaml"
 SLOTS = ["s0", "s1", "s2", "s3"]
@@ -64,6 +67,34 @@ class FunctionTables(unittest.TestCase):
         self.file.write_text(full.text())
         again = problem.read_values(self.file)
         self.assertEqual((again.exact, again.bounds, again.closed), (full.exact, full.bounds, full.closed))
+
+
+class DropOrder(unittest.TestCase):
+    """A proof names a condition that stands for no fact by its formula, as mission.yaml has it."""
+
+    def flown(self, proved: str) -> Flight:
+        reason = f"out of reach: no sequence of actions reaches it\ndetails: no sequence of actions reaches: {proved}"
+        goals = [
+            GoalEnd("watch/radio", "radio", "optional", 5, "dropped", reason, {"module": "radio-1"}),
+            GoalEnd("ground/mode", "mode", "optional", 5, "dropped", reason, {"mode": "survey"}),
+            GoalEnd("orbiter/n", "n", "opportunistic", 1, "achieved", "seen", {"module": "power-3", "slot": "s2"}),
+        ]
+        return Flight(1, Path(), goals=goals, events=[(1, "goal.accepted", f"goal {goal.key} accepted") for goal in goals])
+
+    def faults_when(self, goal: str, proved: str) -> list[str]:
+        flight = self.flown(proved)
+        flight.events.append((2, "goal.dropped", f"goal {goal} dropped: out of reach"))
+        return broken_drop_order(flight, TRIALS["orbital"].goal_fact)
+
+    def test_what_a_proof_names_goes_whatever_else_is_open(self):
+        replaced = "(exists (?b - module ?s - socket) (and (seat radio-1 ?s) (installed ?b ?s)))"
+        moded = "(forall (?r - role ?s - socket) (imply (needs survey ?r ?s) (exists (?m - module) (installed ?m ?s))))"
+        self.assertEqual(self.faults_when("watch/radio", replaced), [])
+        self.assertEqual(self.faults_when("ground/mode", moded), [])
+
+    def test_what_no_proof_names_waits_for_its_turn(self):
+        self.assertEqual(len(self.faults_when("ground/mode", "(installed power-3 s2)")), 1)
+        self.assertEqual(len(self.faults_when("watch/radio", "(seat radio-2 ?s)")), 1)
 
 
 class ByHand(unittest.TestCase):

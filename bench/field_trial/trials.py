@@ -43,7 +43,9 @@ def planetary_fact(goal: GoalEnd) -> str:
 def orbital_fact(goal: GoalEnd) -> str:
     if "slot" in goal.arguments:
         return re.escape(f"(installed {goal.arguments['module']} {goal.arguments['slot']})")
-    return r"(?!)"  # a formula: a proof names no fact of it
+    if "module" in goal.arguments:  # conditions that no fact stands for, by what mission.yaml says of them
+        return re.escape(f"(seat {goal.arguments['module']} ?s)")
+    return re.escape(f"(needs {goal.arguments['mode']} ?r ?s)")
 
 
 TRIALS = {

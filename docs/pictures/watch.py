@@ -19,7 +19,6 @@ import subprocess
 import sys
 import tempfile
 import termios
-import time
 from html import escape
 from pathlib import Path
 
@@ -97,7 +96,6 @@ def main() -> int:
             stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
         )  # fmt: skip
         try:
-            time.sleep(2)  # until it says where it flies
             for frame in frames(programs / "roci", run.pid):
                 moment = re.search(r"\d\d:\d\d:\d\d", frame)
                 if moment and moment.group() >= arguments.at:

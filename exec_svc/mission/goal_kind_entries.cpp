@@ -24,7 +24,9 @@ std::vector<std::string> texts_or_none(const Entry& parent, const char* key) {
   return entry ? entry->texts() : std::vector<std::string>{};
 }
 
-ObjectModel read_object(const Entry& entry, bool has_domain) {
+// `template_of_kind`: the goal may say which robot its objects are seen by, so that no robot need be known yet.
+ObjectModel read_object(const Entry& entry, bool has_domain, const ExecutiveRole& role,
+                        bool template_of_kind) {
   entry.allow_only({"name", "type", "dynamic", "properties"});
   ObjectModel out{entry.at("name").text(),
                   has_domain ? entry.at("type").text() : entry.text_or("type", ""),
@@ -35,7 +37,9 @@ ObjectModel read_object(const Entry& entry, bool has_domain) {
       PropertySource source{name, "", std::nullopt};
       if (value.is_mapping()) {
         value.allow_only({"timeline"});
-        source.timeline = value.at("timeline").text();
+        const Entry timeline = value.at("timeline");
+        source.timeline =
+            template_of_kind && role.robot.empty() ? timeline.text() : read_timeline(timeline, role);
       } else {
         source.text = value.text();
       }
@@ -115,17 +119,19 @@ void require_robot(const Entry& entry, const std::string& text) {
 
 }  // namespace
 
-std::vector<ObjectModel> read_objects(const Entry& parent, bool has_domain) {
+std::vector<ObjectModel> read_objects(const Entry& root, const MissionModel& mission) {
   std::vector<ObjectModel> out;
-  if (const auto list = parent.find("objects")) {
-    list->each([&](const Entry& item) { out.push_back(read_object(item, has_domain)); });
+  if (const auto list = root.find("objects")) {
+    list->each([&](const Entry& item) {
+      out.push_back(read_object(item, mission.has_domain(), mission.role, false));
+    });
   }
   return out;
 }
 
 GoalKind read_goal_kind(const std::string& name, const Entry& entry, const MissionModel& mission) {
-  entry.allow_only(
-      {"help", "arguments", "example", "objects", "facts", "facts_while_open", "unobserved", "window", "goal", "achieved"});
+  entry.allow_only({"help", "arguments", "example", "objects", "facts", "facts_while_open", "unobserved",
+                    "window", "goal", "achieved"});
   GoalKind out;
   out.name = name;
   out.help = entry.text_or("help", "");
@@ -139,7 +145,10 @@ GoalKind read_goal_kind(const std::string& name, const Entry& entry, const Missi
     for (const auto& [argument, value] : example->fields())
       if (!out.arguments.contains(argument))
         value.fail("a " + name + " has no argument '" + argument + "'; name one of its 'arguments'");
-  out.objects = read_objects(entry, mission.has_domain());
+  if (const auto objects = entry.find("objects"))
+    objects->each([&](const Entry& item) {
+      out.objects.push_back(read_object(item, mission.has_domain(), mission.role, true));
+    });
   if (const auto achieved = entry.find("achieved")) {
     out.achieved = read_condition(*achieved);
     if (!mission.role.robot.empty()) out.achieved = fill_names(out.achieved, {{"robot", mission.role.robot}});

@@ -11,8 +11,9 @@
 
 namespace roci::exec::mission {
 
-/// The list `objects` of this entry; none if it has no such list. Their types may be left out without a domain.
-std::vector<ObjectModel> read_objects(const roci::mission::Entry& parent, bool has_domain);
+/// The list `objects` of the file; none if it has no such list. `mission` knows its role and whether it has a domain, without
+/// which types may be left out.
+std::vector<ObjectModel> read_objects(const roci::mission::Entry& root, const MissionModel& mission);
 
 /// The formula of an item of `goal`, in which something stands in the place of each {name}. Throws FileError at the item
 /// for what is no condition of PDDL. `domain` may be null.

@@ -107,6 +107,16 @@ WindowModel read_window(const Entry& entry, const MissionModel& mission) {
   return out;
 }
 
+// Of a budget; 0 where nothing is said.
+double amount_or_none(const Entry& budget, const char* key, double most) {
+  const auto entry = budget.find(key);
+  if (!entry) return 0;
+  const double amount = entry->number();
+  if (amount < 0 || amount > most)
+    entry->fail("a budget cannot be " + entry->text() + "; write a number from 0 (no bound of its own) on");
+  return amount;
+}
+
 PlannerSettings read_planner(const Entry& entry, const MissionModel& mission) {
   PlannerSettings out;
   if (!mission.has_domain() && !entry.find("engine"))
@@ -117,8 +127,8 @@ PlannerSettings read_planner(const Entry& entry, const MissionModel& mission) {
   if (const auto service = entry.find("service")) out.service = read_timeline(*service, mission.role);
   if (const auto budget = entry.find("budget")) {
     budget->allow_only({"work", "memory_mb", "wall_s", "improvement"});  // the last one is planner_svc's
-    out.work = static_cast<std::uint64_t>(budget->number_or("work", 0));
-    out.memory_mb = static_cast<std::uint32_t>(budget->number_or("memory_mb", 0));
+    out.work = static_cast<std::uint64_t>(amount_or_none(*budget, "work", 1e15));
+    out.memory_mb = static_cast<std::uint32_t>(amount_or_none(*budget, "memory_mb", 1e9));
     out.wall = seconds_or(*budget, "wall_s", 0);
   }
   out.allowance = seconds_or(entry, "allowance_s", temporal::to_seconds(out.allowance));
@@ -131,7 +141,8 @@ constexpr Duration kShortestTerm = temporal::seconds(0.5);
 ReactorSettings read_executive(const Entry& entry) {
   entry.allow_only({"ack_timeout_s", "fallback_timeout_s", "replan_limit", "call_retries", "failure_limit",
                     "failure_pause_s", "failure_pause_max_s", "keep_inputs", "kept_records", "recovery",
-                    "start", "replanning", "autonomy", "standby_term_s", "owner_return_s"});
+                    "start", "replanning", "autonomy", "standby_term_s", "owner_return_s",
+                    "hard_goal_trials"});
   ReactorSettings out;
   out.ack_timeout = seconds_or(entry, "ack_timeout_s", temporal::to_seconds(out.ack_timeout));
   out.fallback_timeout = seconds_or(entry, "fallback_timeout_s", temporal::to_seconds(out.fallback_timeout));
@@ -142,6 +153,7 @@ ReactorSettings read_executive(const Entry& entry) {
   out.failure_pause = seconds_or(entry, "failure_pause_s", temporal::to_seconds(out.failure_pause));
   out.failure_pause_max =
       seconds_or(entry, "failure_pause_max_s", temporal::to_seconds(out.failure_pause_max));
+  out.hard_goal_trials = count_or(entry, "hard_goal_trials", out.hard_goal_trials, 0);
   out.keep_inputs = entry.truth_or("keep_inputs", out.keep_inputs);
   out.kept_records = count_or(entry, "kept_records", out.kept_records, 0);
   if (const auto recovery = entry.find("recovery")) out.recovery = read_strategy(*recovery);
@@ -192,7 +204,7 @@ MissionModel read_mission(const std::filesystem::path& folder_or_file, const Exe
   out.role = role;
   root.attempt([&] { out.name = root.at("name").text(); });
   root.attempt([&] { read_model(root, out); });
-  root.attempt([&] { out.objects = read_objects(root, out.has_domain()); });
+  root.attempt([&] { out.objects = read_objects(root, out); });
   if (const auto facts = root.find("facts")) {
     if (!out.has_domain()) refuse_without_domain(root, {"facts"});
     facts->attempt([&] { out.facts = facts->texts(); });

@@ -157,6 +157,8 @@ struct ReactorSettings {
   std::uint32_t failure_limit = 5;
   temporal::Duration failure_pause = temporal::seconds(30);  ///< after the second of them; doubles with each
   temporal::Duration failure_pause_max = temporal::seconds(600);  ///< but is never longer
+  /// Planner calls spent on which hard goals give way when not even those all fit, so that the fewest do; 0: the newest does.
+  std::uint32_t hard_goal_trials = 0;
   bool keep_inputs = true;  ///< of the whole mission in the journal; false: since the last anchor
   /// Where inputs are not kept: so many of the newest traces, events and decisions are, and all since the last anchor.
   std::uint32_t kept_records = 20'000;

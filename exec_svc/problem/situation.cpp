@@ -30,7 +30,10 @@ std::vector<ObjectModel> objects_of(const MissionModel& mission, const GoalReque
   std::vector<ObjectModel> out = mission.goal_kinds.at(goal.kind).objects;
   for (ObjectModel& object : out) {
     object.name = fill_names(object.name, values);
-    for (PropertySource& property : object.properties) property.text = fill_names(property.text, values);
+    for (PropertySource& property : object.properties) {
+      property.text = fill_names(property.text, values);
+      if (property.timeline) property.timeline = fill_names(*property.timeline, values);
+    }
   }
   return out;
 }

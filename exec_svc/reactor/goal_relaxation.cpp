@@ -56,7 +56,16 @@ std::string names_of_others(const GoalSet& goals, const GoalKey& key) {
   return count > kNamed ? out + " and " + std::to_string(count - kNamed) + " more" : out;
 }
 
-/// Why a goal leaves. Of one that no proof blames nobody knows whether it would fit alone, so nothing is said of that.
+std::vector<RelaxationStep::Leaving> leaving(const PlanReply& reply, const GoalSet& goals,
+                                             const std::vector<GoalKey>& keys) {
+  std::vector<RelaxationStep::Leaving> out;
+  for (const GoalKey& key : keys) out.push_back({key, reason_to_leave(reply, goals, key)});
+  return out;
+}
+
+}  // namespace
+
+// Of a goal that no proof blames nobody knows whether it would fit alone, so nothing is said of that.
 std::string reason_to_leave(const PlanReply& reply, const GoalSet& goals, const GoalKey& key) {
   if (reply.verdict != Verdict::unsolvable)
     return std::string(to_string(reply.verdict)) + (reply.reason.empty() ? "" : ": " + reply.reason);
@@ -68,15 +77,6 @@ std::string reason_to_leave(const PlanReply& reply, const GoalSet& goals, const 
   return with_details(others.empty() ? "no plan achieves it" : "no plan achieves it together with " + others,
                       reply);
 }
-
-std::vector<RelaxationStep::Leaving> leaving(const PlanReply& reply, const GoalSet& goals,
-                                             const std::vector<GoalKey>& keys) {
-  std::vector<RelaxationStep::Leaving> out;
-  for (const GoalKey& key : keys) out.push_back({key, reason_to_leave(reply, goals, key)});
-  return out;
-}
-
-}  // namespace
 
 RelaxationStep relax(const PlanReply& reply, const GoalSet& goals, const MissionModel& mission,
                      const Relaxation& relaxed) {
@@ -96,6 +96,14 @@ std::optional<GoalKey> soft_goal_to_give_up(const PlanReply& reply, const GoalSe
   const std::vector<GoalKey> blamed = blamed_goals(reply, goals);
   const bool of_hard_alone = reply.verdict == Verdict::unsolvable && !relaxed.soft_goals_left_out.empty();
   return blamed.empty() && !of_hard_alone ? goals.drop_candidate() : goals.drop_candidate(blamed);
+}
+
+std::vector<GoalKey> hard_goals_at_stake(const PlanReply& reply, const GoalSet& goals) {
+  std::vector<GoalKey> out = blamed_goals(reply, goals);
+  if (!out.empty()) return out;
+  for (const GoalRecord* record : goals.open())
+    if (record->request.importance == GoalClass::hard) out.push_back(record->request.key);
+  return out;
 }
 
 std::optional<GoalKey> next_suspect(const GoalSet& goals, const std::optional<GoalKey>& suspect) {

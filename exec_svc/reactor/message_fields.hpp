@@ -13,7 +13,7 @@ namespace roci::exec::reactor {
 
 template <class A>
 void fields(A& a, archive::Of<PeerLoss, A>& v) {
-  a(v.service, v.reason);
+  a(v.service, v.reason, v.observes);
 }
 template <class A>
 void fields(A& a, archive::Of<ModelVersion, A>& v) {

@@ -22,6 +22,7 @@ namespace roci::exec::reactor {
 struct PeerLoss {
   std::string service;
   std::string reason;
+  bool observes = false;  ///< it tells what is so: what is believed may be old until it is back
 };
 
 /// A call to the planner; its reply comes back with the same id.
@@ -143,7 +144,7 @@ struct ReactorOutputs {
   std::vector<executive::Observation> values;       ///< that the ground has set
   /// What the plan has made of timelines that nobody observes; without a value: nothing is known of it any more.
   std::vector<executive::Observation> concluded;
-  std::optional<temporal::Time> wake;               ///< step() is to be called then, if nothing comes before
+  std::optional<temporal::Time> wake;  ///< step() is to be called then, if nothing comes before
 };
 
 struct ReactorCounts {

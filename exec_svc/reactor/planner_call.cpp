@@ -24,6 +24,7 @@ void PlannerCall::send(PlanRequest request) {
   ++state_->counts.planner_calls;
   request_ = std::move(request);
   models_changed_ = false;
+  blind_ = !away_.empty();
   resend();
 }
 
@@ -88,6 +89,17 @@ bool PlannerCall::count_as_stale(const PlanReply& reply) {
                    std::string(kModelChanged) + " during the planner call; it is made again");
   }
   return true;
+}
+
+void PlannerCall::note_lost(const std::string& service) {
+  away_.insert(service);
+  blind_ = true;
+}
+
+std::string PlannerCall::away() const {
+  std::string out;
+  for (const std::string& service : away_) out += (out.empty() ? "" : ", ") + service;
+  return out;
 }
 
 bool PlannerCall::back_off(Time now) {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -43,6 +44,17 @@ class PlannerCall {
   bool count_as_stale(const PlanReply& reply);
   void note_fresh() { stale_in_a_row_ = 0; }
 
+  /// A service that tells what is so was lost, or any service is there.
+  void note_lost(const std::string& service);
+  void note_found(const std::string& service) { away_.erase(service); }
+  /// Who is away now stays away: calls are not blind for it any more.
+  void forget_lost() { away_.clear(); }
+  /// Whether one that tells what is so was away when the newest call was made, or has been since: then what the planner
+  /// proves of goals may stand on what is not so any more.
+  bool is_blind() const { return blind_; }
+  /// Names those that are away, in plain words; "" if all are back.
+  std::string away() const;
+
   /// A call failed for want of a service: sets the pause before the next one. False: there were too many.
   bool back_off(temporal::Time now);
   void clear_failures() { failures_ = 0; }
@@ -52,7 +64,7 @@ class PlannerCall {
   template <class Archive, class Self>
   static void fields(Archive& archive, Self& self) {
     archive(self.id_, self.request_, self.open_, self.cancelled_, self.models_, self.models_changed_,
-            self.stale_in_a_row_, self.failures_, self.not_before_);
+            self.stale_in_a_row_, self.failures_, self.not_before_, self.away_, self.blind_);
   }
 
  private:
@@ -66,6 +78,8 @@ class PlannerCall {
   std::uint32_t stale_in_a_row_ = 0;
   std::uint32_t failures_ = 0;    ///< in a row
   temporal::Time not_before_{0};  ///< of the next call
+  std::set<std::string> away_;    ///< of those that tell what is so
+  bool blind_ = false;            ///< the newest call, see is_blind()
 };
 
 }  // namespace roci::exec::reactor

@@ -17,6 +17,15 @@ using problem::Reserves;
 using temporal::Time;
 using temporal::Verdict;
 
+namespace {
+
+std::string ending(const PlanReply& reply) {
+  return std::string("planner call ended as ") + to_string(reply.verdict) +
+         (reply.reason.empty() ? "" : ": " + reply.reason);
+}
+
+}  // namespace
+
 void PlanningCycle::begin(Time now) {
   state_->replan_wanted = false;  // the problem holds all that is known now
   if (state_->goals.open().empty()) {
@@ -26,6 +35,7 @@ void PlanningCycle::begin(Time now) {
   state_->phase = MissionPhase::planning;
   relaxed_.soft_goals_left_out.clear();
   relaxed_.suspect.reset();
+  trials_ = {};
   call_for_now(now);
 }
 
@@ -35,6 +45,7 @@ problem::Problem PlanningCycle::write(Time now, Time origin, const Forecast& for
   const bool all_goals = relaxed_.soft_goals_left_out.empty();
   goals::GoalSet goals = all_goals ? state_->goals : hard_goals(state_->goals);
   if (relaxed_.suspect) goals = without(goals, *relaxed_.suspect);
+  for (const goals::GoalKey& key : trials_.without) goals = without(goals, key);
   return write_problem(*state_->mission, state_->beliefs, goals, call_->next_name(), now, origin,
                        relaxed_.reserves, forecast);
 }
@@ -80,12 +91,15 @@ void PlanningCycle::take_reply(Time now, const PlanReply& reply) {
                       "the planner calls every problem with it invalid: " + relaxed_.refusal);
     return begin(now);
   }
-  if (reply.verdict == Verdict::solved && !relaxed_.soft_goals_left_out.empty()) {
+  if (accepted && !trials_.without.empty()) {
+    take_trial(now, reply);
+  } else if (reply.verdict == Verdict::solved && !relaxed_.soft_goals_left_out.empty()) {
     state_->give_up({*state_->goals.drop_candidate()}, relaxed_.soft_goals_left_out);
     begin(now);
   } else if (reply.verdict == Verdict::solved) {
     adopt(now, reply);
   } else if (speaks_of_goals(reply.verdict)) {
+    if (ask_again_seeing(now, reply)) return;
     call_->clear_failures();
     if (relax(reply)) {
       begin(now);
@@ -167,8 +181,8 @@ bool PlanningCycle::relax(const PlanReply& reply) {
       for (const auto& [goal, reason] : step.goals) state_->give_up({goal}, reason);
       return true;
     case RelaxationStep::Kind::give_up_hard:
-      for (const auto& [goal, reason] : step.goals) state_->give_up({goal}, reason);
-      keep_reserves();
+      if (try_without_some(reply)) return false;
+      give_up_hard(step);
       return true;
     case RelaxationStep::Kind::leave_out_soft:
       relaxed_.soft_goals_left_out = step.reason;
@@ -183,16 +197,65 @@ bool PlanningCycle::relax(const PlanReply& reply) {
   return true;
 }
 
+void PlanningCycle::give_up_hard(const RelaxationStep& step) {
+  for (const auto& [goal, reason] : step.goals) state_->give_up({goal}, reason);
+  keep_reserves();
+}
+
+bool PlanningCycle::try_without_some(const PlanReply& refusal) {
+  const std::uint32_t most = state_->mission->executive.hard_goal_trials;
+  const auto at_stake = hard_goals_at_stake(refusal, state_->goals);
+  auto next = next_trial(state_->goals, at_stake, trials_.made, most);
+  if (next.empty()) return false;
+  std::string names;
+  for (const goals::GoalKey& key : next) names += (names.empty() ? "" : ", ") + key.text();
+  state_->report(
+      Severity::info, "goal.weighed",
+      "the planner is asked without " + names + ", to see whether the other hard goals have a plan then");
+  trials_ = {std::move(next), trials_.made + 1, refusal};
+  return true;
+}
+
+void PlanningCycle::take_trial(Time now, const PlanReply& reply) {
+  call_->clear_failures();
+  const HardGoalTrials trial = trials_;
+  if (reply.verdict != Verdict::solved && try_without_some(trial.refusal)) return call_for_now(now);
+  if (reply.verdict == Verdict::solved) {
+    for (const goals::GoalKey& key : trial.without)
+      if (!is_final(state_->goals.find(key)->state))
+        state_->give_up({key}, with_what_it_saves(reason_to_leave(trial.refusal, state_->goals, key)));
+    keep_reserves();
+  } else {
+    give_up_hard(reactor::relax(trial.refusal, state_->goals, *state_->mission, relaxed_));
+  }
+  begin(now);
+}
+
 bool PlanningCycle::soft_goal_would_leave(const PlanReply& reply) const {
   return soft_goal_to_give_up(reply, state_->goals, relaxed_).has_value();
 }
 
+bool PlanningCycle::ask_again_seeing(Time now, const PlanReply& reply) {
+  if (!call_->is_blind()) return false;
+  if (!call_->back_off(now)) {
+    call_->forget_lost();
+    return false;
+  }
+  const std::string away = call_->away();
+  retry(first_line(ending(reply)) + "; what it was told of may be old, as " +
+        (away.empty() ? "a service was away that observes it" : away + " is away"));
+  return true;
+}
+
 void PlanningCycle::try_again_later(Time now, const PlanReply& reply) {
-  const std::string what = std::string("planner call ended as ") + to_string(reply.verdict) +
-                           (reply.reason.empty() ? "" : ": " + reply.reason);
+  const std::string what = ending(reply);
   const bool may_pass = reply.verdict != Verdict::unsupported && reply.verdict != Verdict::invalid_input;
   if (!may_pass || !call_->back_off(now)) return safing_->make_safe(now, what);
-  state_->report(Severity::warning, "plan.retry", what + "; will be tried again");
+  retry(what);
+}
+
+void PlanningCycle::retry(const std::string& reason) {
+  state_->report(Severity::warning, "plan.retry", reason + "; will be tried again");
   state_->phase = MissionPhase::idle;
   state_->want_plan("the planner call is tried again");
   state_->wake_at(call_->not_before());

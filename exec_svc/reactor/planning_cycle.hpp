@@ -3,6 +3,7 @@
 #pragma once
 
 #include "exec_svc/reactor/goal_relaxation.hpp"
+#include "exec_svc/reactor/hard_goal_choice.hpp"
 #include "exec_svc/reactor/mission_state.hpp"
 #include "exec_svc/reactor/planner_call.hpp"
 #include "exec_svc/reactor/running_plan.hpp"
@@ -28,7 +29,7 @@ class PlanningCycle {
   void adopt(temporal::Time now, const PlanReply& reply);
 
   /// Not all goals fit: one leaves, or the next call is relaxed. False: that call is to be made as it is, for
-  /// hard goals alone.
+  /// hard goals alone or for some of them.
   bool relax(const PlanReply& reply);
   /// Whether relax() would end a soft goal, and no hard one is at stake.
   bool soft_goal_would_leave(const PlanReply& reply) const;
@@ -38,6 +39,7 @@ class PlanningCycle {
   template <class Archive, class Self>
   static void fields(Archive& archive, Self& self) {
     Relaxation::fields(archive, self.relaxed_);
+    HardGoalTrials::fields(archive, self.trials_);
     archive(self.planned_without_activities_);
   }
 
@@ -49,7 +51,18 @@ class PlanningCycle {
   /// The planner calls the problem invalid: it is asked again without one goal, then without another one. False: it is none
   /// of them.
   bool suspect_a_goal(temporal::Time now, const PlanReply& reply);
+  /// Not even the hard goals fit: the planner is asked without some of them, to see which ones' leaving saves the others. False:
+  /// the mission does not want that, or there is nothing more to try.
+  bool try_without_some(const PlanReply& refusal);
+  /// Acts on the reply to such a call: what it was made without leaves, or is tried again with the next ones, or all leave that
+  /// would have left at once.
+  void take_trial(temporal::Time now, const PlanReply& reply);
+  void give_up_hard(const RelaxationStep& step);
   void try_again_later(temporal::Time now, const PlanReply& reply);
+  /// The planner says that goals are out of reach, and was asked while somebody was away who tells what is so: no goal ends
+  /// for that. False: it has been asked often enough, and is believed.
+  bool ask_again_seeing(temporal::Time now, const PlanReply& reply);
+  void retry(const std::string& reason);
   void note_planned();
   /// Times of the starts beyond what the plan asks for: fixed ones at E2, the latest where the mission says so.
   void set_start_times(temporal::FlexiblePlan& plan) const;
@@ -62,6 +75,7 @@ class PlanningCycle {
   PlannerCall* call_;
   Safing* safing_;
   Relaxation relaxed_;  ///< in the newest call
+  HardGoalTrials trials_;
   /// The goals of the newest plan if that has no activities.
   std::vector<goals::GoalKey> planned_without_activities_;
 };

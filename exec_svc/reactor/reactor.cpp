@@ -92,10 +92,13 @@ void Reactor::restore_concluded(const std::map<std::string, temporal::Value>& co
 
 void Reactor::take_services(const ReactorInputs& inputs) {
   MissionState& state = parts_->state;
-  for (const PeerLoss& loss : inputs.losses)
+  for (const PeerLoss& loss : inputs.losses) {
     state.report(Severity::warning, "service.lost", loss.service + " was lost: " + loss.reason);
+    if (loss.observes) parts_->call.note_lost(loss.service);
+  }
   for (const std::string& service : inputs.arrivals) {
     state.report(Severity::info, "service.found", service + " is there");
+    parts_->call.note_found(service);
     if (state.phase == MissionPhase::safe && !state.goals.open().empty())
       state.want_plan(service + " came back");
     parts_->call.clear_failures();

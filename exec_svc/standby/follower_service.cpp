@@ -15,6 +15,7 @@ namespace topics = services::topics;
 namespace {
 
 constexpr Moment kHandOverAgain = std::chrono::seconds(1);
+constexpr std::size_t kToldToLack = 64;  // lines of the log, for one follower
 
 }  // namespace
 
@@ -86,11 +87,11 @@ void FollowerService::turn() {
   node_.stop();
 }
 
-// Once for each reason, and again when it is about other owners.
+// Once for the same owners: who has a part gives it back and asks again, for as long as the others are away.
 void FollowerService::tell_what_it_lacks(const Lease::Turn& turn) {
   const std::string lacks = turn.lacks + (turn.doubtful ? " in doubt" : "");
-  if (turn.lacks.empty() || lacks == told_to_lack_) return;
-  told_to_lack_ = lacks;
+  if (turn.lacks.empty() || told_to_lack_.size() >= kToldToLack || !told_to_lack_.insert(lacks).second)
+    return;
   services::log::info(executive_ + " would lead, since " + turn.reason +
                       ", and does not: it lacks the leases of " + turn.lacks);
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -46,7 +47,7 @@ class FollowerService {
   PersistedTermFile* persisted_term_;
   JournalCopy copy_;
   std::optional<Lease::Turn> lead_;
-  std::string told_to_lack_;
+  std::set<std::string> told_to_lack_;
   bool over_ = false;
   GoalsApart apart_;
   std::vector<goals::GoalRecord> handed_over_;  ///< that the leader may not have yet

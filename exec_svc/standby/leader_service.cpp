@@ -24,13 +24,14 @@ JournalFeed begin_feed(std::uint64_t epoch, Journal& journal) {
 }  // namespace
 
 LeaderService::LeaderService(services::Node& node, std::string executive, Lease& lease, Journal& journal,
-                             PersistedTermFile& persisted_term)
+                             PersistedTermFile& persisted_term, bool told_split)
     : node_(node),
       executive_(std::move(executive)),
       lease_(&lease),
       journal_(&journal),
       persisted_term_(&persisted_term),
       feed_(begin_feed(lease.epoch(), journal)),
+      told_split_(told_split),
       messages_(services::advertise(node, topics::exec_member)),
       lease_requests_(services::advertise(node, topics::lease_request)),
       chunks_(services::advertise(node, topics::exec_journal)) {
@@ -62,7 +63,8 @@ void LeaderService::hear(const v1::LeaseState& state) {
 void LeaderService::turn() {
   const Lease::Turn turn = lease_->turn(feed_.newest(), moment());
   persisted_term_->keep(lease_->persisted_term());
-  if (turn.change == Lease::Change::stand_down) throw StandDown(turn.reason, lease_->superseded());
+  if (turn.change == Lease::Change::stand_down)
+    throw StandDown(turn.reason, lease_->superseded(), told_split_);
   report(turn.change, turn.reason);
   if (turn.speak) {
     messages_.write(to_wire(lease_->message(feed_.newest()), {}, executive_));
@@ -83,7 +85,7 @@ void LeaderService::report(Lease::Change change, const std::string& reason) {
 // Nobody leads then, as far as this one knows: who commands has the leases of all owners.
 void LeaderService::report_leases() {
   const auto since = lease_->unleased_since();
-  const bool split = since && moment() - *since >= 2 * lease_->settings().term;
+  const bool split = since && (told_split_ || moment() - *since >= 2 * lease_->settings().term);
   if (split == told_split_) return;
   told_split_ = split;
   if (!split)

@@ -23,18 +23,19 @@ namespace roci::exec::standby {
 /// Is what leaves Node::run() when a leader is none any more.
 class StandDown : public std::runtime_error {
  public:
-  StandDown(const std::string& reason, bool is_superseded)
-      : std::runtime_error(reason), superseded(is_superseded) {}
+  StandDown(const std::string& reason, bool is_superseded, bool has_told_split = false)
+      : std::runtime_error(reason), superseded(is_superseded), told_split(has_told_split) {}
   const bool superseded;  ///< says whether another leader leads, for all it knows
+  const bool told_split;  ///< says whether operators were told of a split set, and not yet of its end
 };
 
 /// Lets nothing out that the follower should have and has not, and no command without the leases of all owners.
 class LeaderService {
  public:
-  /// Takes a `lease` that leads already; its epoch begins in the journal. All arguments must outlive this
-  /// object.
+  /// Takes a `lease` that leads already; its epoch begins in the journal. With `told_split`, operators were told of a
+  /// split set when this process led before. All arguments must outlive this object.
   LeaderService(services::Node& node, std::string executive, Lease& lease, journal::Journal& journal,
-                PersistedTermFile& persisted_term);
+                PersistedTermFile& persisted_term, bool told_split = false);
 
   /// Lets out what was decided with the journal's newest commit: `send` runs now or later, in the order of
   /// these calls, unless this leader stands down before. Under the simulated clock the micro-step lasts until
@@ -85,7 +86,7 @@ class LeaderService {
   std::function<void(goals::GoalRecord)> take_goal_;
   std::optional<journal::Position> sending_;     ///< what goes out right now was decided here
   std::optional<journal::Position> told_alone_;  ///< newest that was acknowledged as journaled here alone
-  bool told_split_ = false;
+  bool told_split_;
   services::Publisher<v1::LeaseMessage> messages_;
   services::Publisher<v1::LeaseRequest> lease_requests_;
   services::Publisher<v1::JournalChunk> chunks_;

@@ -9,6 +9,7 @@
 
 #include "core/pddl/check.hpp"
 #include "core/pddl/forbidden.hpp"
+#include "planner_svc/engine/function_words.hpp"
 #include "planner_svc/temporal_pddl/call/planning_failure.hpp"
 #include "planner_svc/temporal_pddl/dead_ends/mutex_dead_ends.hpp"
 #include "planner_svc/temporal_pddl/dead_ends/resource_dead_ends.hpp"
@@ -31,7 +32,7 @@ namespace roci::planner::temporal_pddl {
 using call::Budget, call::Monitor, call::NamedGoal, call::Options, call::PlanningFailure, call::SearchLimits,
     call::Statistics;
 using dead_ends::DeadEndDetectors, dead_ends::MutexDeadEnds, dead_ends::ResourceDeadEnds;
-using engine::FunctionOutcome, engine::FunctionSource, engine::FunctionsMode, engine::FunctionUse;
+using engine::FunctionSource, engine::FunctionsMode, engine::FunctionUse;
 using extraction::build_plan;
 using grounding::Grounding, grounding::GroundingReport, grounding::ground, grounding::ground_remaining_plan;
 using grounding::lifted::ModelFailure;
@@ -86,8 +87,9 @@ void explain(FfHeuristic& ff, ResourceDeadEnds& resources, SearchOutcome outcome
 }
 
 Grounding grounded(const pddl::Domain& domain, const pddl::Problem& problem, FunctionSource& functions,
-                   const Options& options, SearchLimits& limits, Result& result) {
+                   const Options& options, SearchLimits& limits, bool keeps_functions, Result& result) {
   GroundingReport report;
+  report.keeps_functions = keeps_functions;
   const auto tell = [&] {
     result.functions = std::move(report.functions);
     result.warnings = std::move(report.warnings);
@@ -130,7 +132,8 @@ void solve(const pddl::Domain& domain, const pddl::Problem& problem, const Attem
            std::span<const NamedGoal> goals, SearchLimits& limits, Result& result) {
   const Options& options = attempt.options;
   limits.phase("grounding");
-  const Grounding grounding = grounded(domain, problem, attempt.functions, options, limits, result);
+  const Grounding grounding =
+      grounded(domain, problem, attempt.functions, options, limits, attempt.keeps_functions, result);
   const Task& task = grounding.task;
   const Touched touched(task, attempt.touched, limits);
   describe(task, result.statistics);
@@ -193,18 +196,10 @@ Result plan_once(const pddl::Domain& domain, const pddl::Problem& problem, const
 
 // That no plan exists is not proved where an owner found no value with the effort that it spent.
 void doubt_unknown_values(Result& result) {
-  const auto is_unknown = [](const FunctionUse& use) {
-    return use.answer.outcome == FunctionOutcome::unknown;
-  };
-  const auto first = std::ranges::find_if(result.functions, is_unknown);
-  if (result.verdict != Verdict::unsolvable || first == result.functions.end()) return;
-  const auto count = std::ranges::count_if(result.functions, is_unknown);
-  const std::string& owner = first->answer.provenance.owner;
-  std::string doubt =
-      "not known: " + (owner.empty() ? "the owner" : owner) + " found no way for " + application(first->call);
-  if (count > 1) doubt += " and " + std::to_string(count - 1) + " more";
+  const std::string doubt = engine::doubt_of(result.functions);
+  if (result.verdict != Verdict::unsolvable || doubt.empty()) return;
   result.verdict = Verdict::timeout;
-  result.reason = doubt + " with the effort spent; ask again or give it more; without that, " + result.reason;
+  result.reason = doubt + "; without that, " + result.reason;
   result.blocked.clear();
 }
 

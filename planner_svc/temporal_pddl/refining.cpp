@@ -59,7 +59,7 @@ class Refining {
     statistics.peak_bytes = total_.peak_bytes;
     statistics.from_remaining = from_remaining_;
     statistics.rounds = rounds_;
-    result.functions = values_.uses();
+    result.functions = values_.take_uses();
     for (const std::string& warning : values_.warnings()) result.warnings.push_back("warning: " + warning);
     return result;
   }
@@ -173,7 +173,8 @@ class Refining {
     return result;
   }
 
-  Result counted(const Attempt& attempt) {
+  Result counted(Attempt attempt) {
+    attempt.keeps_functions = false;  // the table has them
     Result result = attempt_(attempt);
     const Statistics& one = result.statistics;
     total_.evaluated += one.evaluated;

@@ -31,6 +31,7 @@ struct Attempt {
   std::span<const pddl::PlanStep> remaining;
   /// Gets every action instance whose facts hold in a state that a search expands; null: nobody asks.
   std::vector<values::ActionInstance>* touched = nullptr;
+  bool keeps_functions = true;  ///< false: the result names no function values
 };
 
 using MakeAttempt = std::function<Result(const Attempt&)>;

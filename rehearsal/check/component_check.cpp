@@ -126,6 +126,21 @@ void check_awaited(const CheckedMission& mission, const std::string& robot,
   }
 }
 
+// The service that is asked for ways or motions; of what is said by none the name that the component takes for granted.
+void check_planner(const CheckedMission& mission, const sim::setup::ComponentEntry& component) {
+  const bool drives = component.type == "drive";
+  if (!drives && component.type != "arm") return;
+  const auto said = component.entry.find("planner");
+  const std::string usual = drives ? "pathplan_svc" : "arm_svc";
+  const std::string name = said ? said->text() : usual;
+  if (mission.services.find(name) != nullptr) return;
+  if (!said && mission.services.of_program(usual).empty()) return;  // its functions are missed elsewhere
+  said.value_or(component.entry)
+      .complain("'" + component.name + "' asks '" + name + "' for " + (drives ? "its ways" : "its motions") +
+                ", and no such service stands in services:; name one under 'planner': " +
+                instead_of(name, mission.services.names()));
+}
+
 // The states of other components that a command needs.
 void check_needs(const CheckedMission& mission, const std::string& robot, const Entry& component) {
   const auto commands = component.find("commands");
@@ -165,6 +180,7 @@ void check_simulation(const CheckedMission& mission) {
   for (const sim::setup::RobotEntry& robot : mission.scenarios.front().run.roster) {
     for (const sim::setup::ComponentEntry& component : robot.components) {
       component.entry.attempt([&] { check_awaited(mission, robot.name, component); });
+      component.entry.attempt([&] { check_planner(mission, component); });
       component.entry.attempt([&] { check_needs(mission, robot.name, component.entry); });
     }
   }

@@ -167,7 +167,7 @@ std::string arguments_text(const GoalRequest& goal) {
   return out.empty() ? "" : " with" + out;
 }
 
-// The words of an owner of functions end with who says so (adapter/owners_verdicts); others are the planner's own.
+// The words of an owner of functions end with who says so (engine/owners_words); others are the planner's own.
 bool is_said_by_owner(const std::string& reason) { return reason.find("(says ") != std::string::npos; }
 
 // Why there is no plan, without a word of how planners work.
@@ -224,6 +224,18 @@ std::string why_not_tried(const CheckedMission& mission, const MissionModel& mod
   return "";
 }
 
+// An engine that no planner of the mission has: where programs of its owner fly, only a name that is nearly one of ours.
+void check_engine(const CheckedMission& mission, const CheckedExecutive& executive) {
+  const std::string& engine = executive.model.planner.engine;
+  std::vector<std::string> known;
+  for (const auto& [name, entry] : planner::engines()) known.push_back(name);
+  if (contains(known, engine) || (!mission.closed && words::nearest_word(engine, known).empty())) return;
+  const auto planner = executive.file.find("planner");
+  const auto said = planner ? planner->find("engine") : std::nullopt;
+  said.value_or(executive.file)
+      .complain("no planner has an engine '" + engine + "'; " + instead_of(engine, known));
+}
+
 // Modules that only a program of the mission's owner can offer cannot be asked for here.
 std::string why_no_functions(const CheckedMission& mission, const MissionModel& model, const Answer& answer) {
   const bool own =
@@ -238,6 +250,7 @@ DryPlans dry_plan(const CheckedMission& mission, const CheckedExecutive& executi
   DryPlans out;
   const MissionModel& model = executive.model;
   const auto kinds = executive.file.find("goal_kinds");
+  check_engine(mission, executive);
   const std::string why = why_not_tried(mission, model);
   for (const auto& [name, kind] : model.goal_kinds) {
     if (!why.empty()) {

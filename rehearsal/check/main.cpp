@@ -3,6 +3,8 @@
 #include <filesystem>
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <set>
+#include <utility>
 
 #include "core/mission/entry.hpp"
 #include "rehearsal/check/mission_check.hpp"
@@ -66,13 +68,18 @@ void print(const check::CheckReport& report, const fs::path& mission, bool why) 
     if (why)
       std::cout << "of goal kind '" << one.kind << "' (goal '" << one.goal << "' of scenario '"
                 << one.scenario << "') the planner says: " << one.verdict << ": " << one.details << "\n";
+  // Several executives may know the same kind.
+  std::set<std::string> planned_kinds;
+  for (const check::PlannedKind& one : report.plans.planned) planned_kinds.insert(one.kind);
+  std::set<std::pair<std::string, std::string>> unplanned;
   for (const check::UnplannedKind& one : report.plans.not_tried)
-    std::cout << "goal kind '" << one.kind << "' was not planned: " << one.why << "\n";
+    if (unplanned.emplace(one.kind, one.why).second)
+      std::cout << "goal kind '" << one.kind << "' was not planned: " << one.why << "\n";
   const std::size_t count = report.findings.size();
   const bool planned = !report.plans.planned.empty() || !report.plans.not_tried.empty();
   std::cout << mission.filename().string() << ": "
             << counted(report.scenarios.size(), "scenario", "scenarios") << " read, "
-            << counted(report.plans.planned.size(), "goal kind", "goal kinds") << " planned, "
+            << counted(planned_kinds.size(), "goal kind", "goal kinds") << " planned, "
             << (count == 0 ? "nothing found" : counted(count, "finding", "findings"))
             << (planned || count == 0 ? "" : "; goals are planned when nothing else is wrong") << "\n";
 }

@@ -238,7 +238,8 @@ ExitCode fly(Options options, const std::function<int()>& stop_asked) {
   clock::SystemClockWatch clock_watch;
   clock::WallTime look_at_logs = begun;
   supervisor.start(clock::wall_now());
-  for (int stops = 0; !supervisor.finished();) {
+  int stops = 0;
+  while (!supervisor.finished()) {
     node.spin_once(kTurn);
     if (stop_asked() > stops) {
       ++stops;
@@ -259,6 +260,9 @@ ExitCode fly(Options options, const std::function<int()>& stop_asked) {
   const Summary summary =
       complete_summary(options, std::chrono::duration<double>(clock::wall_now() - begun).count(),
                        !supervisor.failure().has_value());
+  if (stops > 0 && !summary.good)
+    std::cerr
+        << "roci-launch: stopped by a signal before the mission had ended; goals that were open stay so\n";
   std::cout << (options.json ? summary.json + "\n" : summary.text) << std::flush;
   const ExitCode code = exit_code(supervisor.failure(), summary.good);
   services::process::force_exit_after(services::process::kExitLimit, code, "roci-launch: the run is over");

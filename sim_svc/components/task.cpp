@@ -1,6 +1,7 @@
 #include "sim_svc/components/task.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <string_view>
 #include <utility>
@@ -21,6 +22,23 @@ State filled(const StateTemplate& form, const std::map<std::string, std::string>
   State out{fill_slots(form.name, arguments), {}};
   for (const std::string& argument : form.arguments) out.arguments.push_back(fill_slots(argument, arguments));
   return out;
+}
+
+// What a task that was to fill the battery says if, when it is looked at, it has not.
+Ending missing_gain(const TaskCommand& command, double before_j,
+                    const std::optional<world::Battery>& battery) {
+  if (command.gains_j <= 0 || !battery || battery->full()) return std::nullopt;
+  const double gain_j = battery->energy_j() - before_j;
+  if (gain_j >= command.gains_j) return std::nullopt;
+  const auto joules = [](double value) { return std::to_string(std::llround(value)) + " J"; };
+  const std::string change =
+      gain_j > 0 ? "has risen by " + joules(gain_j) : "has not risen, but fallen by " + joules(-gain_j);
+  const std::string while_it_ran =
+      command.gains_within_s
+          ? "in the first " + std::to_string(std::llround(*command.gains_within_s)) + " s of "
+          : "during ";
+  return Failure{"no-gain", "the battery " + change + " " + while_it_ran + command.name + ", at least " +
+                                joules(command.gains_j) + " were to come in; look at what charges it"};
 }
 
 Ending unmet(const std::map<std::string, std::string>& needs, const world::ComponentSet& components) {
@@ -56,6 +74,7 @@ std::vector<world::StateForm> TaskComponent::state_forms() const {
     add(command.during.value_or(StateTemplate{command.name, {}}));
     if (command.then) add(*command.then);
     if (command.stopped) add(*command.stopped);
+    if (command.failed) add(*command.failed);
   }
   return {out.begin(), out.end()};
 }
@@ -86,9 +105,15 @@ Ending TaskComponent::begin(const world::Task& task, Time now, Surroundings& aro
   run_ = Run{static_cast<std::size_t>(found - settings_.commands.begin()),
              form(command.then),
              form(command.stopped),
+             form(command.failed ? command.failed : command.stopped),
              state_,
              values_,
+             around.body.battery ? around.body.battery->energy_j() : 0,
+             std::nullopt,
              {}};
+  if (command.gains_j > 0) {
+    run_->gain_due = command.gains_within_s ? now + temporal::seconds(*command.gains_within_s) : Time::max();
+  }
   for (const auto& [thing, state] : command.leaves)
     run_->leaves[fill_slots(thing, task.arguments)] = filled(state, task.arguments);
   work_.start(temporal::seconds(duration), now);
@@ -101,10 +126,19 @@ Ending TaskComponent::begin(const world::Task& task, Time now, Surroundings& aro
 
 std::optional<Time> TaskComponent::next_change() const {
   if (!run_) return std::nullopt;
-  return work_.end();
+  return std::min(run_->gain_due.value_or(Time::max()), work_.end());
 }
 
-Ending TaskComponent::finish(Surroundings&) {
+Ending TaskComponent::finish(Surroundings& around) {
+  if (run_->gain_due) {
+    const Time now = *next_change();
+    run_->gain_due.reset();
+    const Ending failure =
+        missing_gain(settings_.commands[run_->command], run_->energy_before_j, around.body.battery);
+    if (failure) run_->stopped = run_->failed;
+    if (failure) halt(now, around);
+    if (failure || now < work_.end()) return failure;
+  }
   const Run done = *std::exchange(run_, std::nullopt);
   if (hollow_.take(settings_.commands[done.command].name)) {
     values_ = done.numbers_before;

@@ -31,11 +31,16 @@ struct TaskCommand {
   std::string name;
   std::vector<std::string> arguments{};
   double duration_s = 0;
-  double duration_noise = 0;                   ///< standard deviation as a share of the duration
-  double power_w = 0;                          ///< while it runs; negative: it charges the battery
-  std::optional<StateTemplate> during{};       ///< while it runs; empty: the command's name
-  std::optional<StateTemplate> then{};         ///< holds when it is done; empty: the state before
-  std::optional<StateTemplate> stopped{};      ///< holds when it is broken off; empty: the state before
+  double duration_noise = 0;  ///< standard deviation as a share of the duration
+  double power_w = 0;         ///< while it runs; negative: it charges the battery
+  /// By so much, in J, the battery must have risen when it is looked at, unless it is full then; else the task is broken off
+  /// and fails `no-gain`. 0: it is not looked at.
+  double gains_j = 0;
+  std::optional<double> gains_within_s{};  ///< since the start, when it is looked at; empty: at the end
+  std::optional<StateTemplate> during{};   ///< while it runs; empty: the command's name
+  std::optional<StateTemplate> then{};     ///< holds when it is done; empty: the state before
+  std::optional<StateTemplate> stopped{};  ///< holds when it is broken off; empty: the state before
+  std::optional<StateTemplate> failed{};   ///< holds when too little was gained; empty: as when broken off
   std::map<std::string, std::string> needs{};  ///< component → name of the state it must be in at the start
   std::map<std::string, NumberChange> changes{};  ///< go by the name of the number
   /// Thing, as family.name with arguments in braces (hole.{hole}) → the state that it is left in when the command
@@ -97,8 +102,11 @@ class TaskComponent final : public world::Component {
     std::size_t command = 0;  // index into the settings
     temporal::State then;
     temporal::State stopped;
+    temporal::State failed;
     temporal::State before;
     std::vector<double> numbers_before;
+    double energy_before_j = 0;              // in the battery
+    std::optional<temporal::Time> gain_due;  // when the battery is looked at, unless the task ends before
     std::map<std::string, temporal::State> leaves;
   };
 

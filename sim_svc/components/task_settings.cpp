@@ -94,8 +94,8 @@ std::map<std::string, StateTemplate> read_things(const Entry& entry) {
 
 TaskCommand read_command(const std::string& name, const Entry& entry,
                          const std::vector<TaskNumber>& numbers) {
-  entry.allow_only({"arguments", "duration_s", "duration_noise", "power_w", "during", "then", "stopped",
-                    "needs", "changes", "leaves"});
+  entry.allow_only({"arguments", "duration_s", "duration_noise", "power_w", "gains_j", "gains_within_s",
+                    "during", "then", "stopped", "failed", "needs", "changes", "leaves"});
   TaskCommand out;
   out.name = name;
   if (name == world::kStopCommand)
@@ -104,9 +104,20 @@ TaskCommand read_command(const std::string& name, const Entry& entry,
   out.duration_s = at_least(entry.at("duration_s"), 0);
   out.duration_noise = number(entry, "duration_noise", 0, 0);
   out.power_w = number(entry, "power_w", 0);
+  out.gains_j = number(entry, "gains_j", 0, 0);
+  if (const auto within = entry.find("gains_within_s")) {
+    out.gains_within_s = at_least(*within, 0);
+    if (out.gains_j <= 0) within->fail("nothing is to be gained by then; write gains_j beside it");
+    if (*out.gains_within_s > out.duration_s) within->fail("is longer than duration_s; write a shorter time");
+  }
   if (const auto state = entry.find("during")) out.during = read_state_of(*state, out);
   if (const auto state = entry.find("then")) out.then = read_state_of(*state, out);
   if (const auto state = entry.find("stopped")) out.stopped = read_state_of(*state, out);
+  if (const auto state = entry.find("failed")) {
+    if (out.gains_j <= 0)
+      state->fail("a task fails by itself only if it gains too little; write gains_j beside it");
+    out.failed = read_state_of(*state, out);
+  }
   if (const auto needs = entry.find("needs")) {
     for (const auto& [component, state] : needs->fields()) out.needs[component] = state.text();
   }

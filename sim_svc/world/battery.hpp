@@ -60,6 +60,7 @@ class Battery {
  public:
   Battery(double energy_j, double capacity_j);
   double energy_j() const { return energy_j_; }
+  bool full() const { return energy_j_ >= capacity_j_; }
   /// Adds (or, negative, takes) energy; what does not fit is lost.
   void add(double joules);
   /// Returns true from the moment the store is empty until it holds a hundredth of its capacity again.

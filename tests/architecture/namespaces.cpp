@@ -8,9 +8,6 @@
 namespace roci::architecture {
 namespace {
 
-// Top folders whose files do not yet follow the rule.
-const std::set<std::string> kNotYetConverted = {};
-
 const std::map<std::string, std::string> kNamespaceOf = {{"core", "roci"},
                                                          {"services", "roci::services"},
                                                          {"planner_svc", "roci::planner"},
@@ -56,10 +53,6 @@ std::vector<Block> top_level(const SourceFile& file) {
 
 }  // namespace
 
-bool not_yet_converted(const std::string& path) {
-  return kNotYetConverted.contains(path.substr(0, path.find('/')));
-}
-
 std::string namespace_of(const std::string& path) {
   const std::string folder = path.substr(0, path.find_last_of('/'));
   const auto top = kNamespaceOf.find(folder.substr(0, folder.find('/')));
@@ -79,7 +72,7 @@ std::vector<std::string> foreign_namespaces(const std::vector<SourceFile>& files
   std::vector<std::string> breaches;
   for (const SourceFile& file : files) {
     const std::string wanted = namespace_of(file.path);
-    if (wanted.empty() || not_yet_converted(file.path)) continue;
+    if (wanted.empty()) continue;
     for (const Block& block : top_level(file)) {
       const bool own = block.name == wanted;
       const bool within = block.name.starts_with(wanted + "::") && !of_folders.contains(block.name);

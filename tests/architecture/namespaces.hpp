@@ -12,9 +12,6 @@ namespace roci::architecture {
 /// services/clock is roci::services::clock. Empty when the top folder has none.
 std::string namespace_of(const std::string& path);
 
-/// True for files of a top folder that does not yet follow the rules of form (kNotYetConverted in namespaces.cpp).
-bool not_yet_converted(const std::string& path);
-
 /// What each file opens at its top level must be the namespace of its folder, or one within it that no folder
 /// bears. Unnamed namespaces, and blocks that only declare classes of others, are free. One line for each
 /// breach.

@@ -152,7 +152,6 @@ void check_size_and_names(const SourceFile& file, Complaints& out) {
 
 // Where the formatter had to break a line for the comment behind it, the comment belongs above.
 void check_torn_comments(const SourceFile& file, Complaints& out) {
-  if (not_yet_converted(file.path)) return;
   for (const std::string& line : file.lines) {
     const auto text = line.find_first_not_of(' ');
     const bool continues = text != std::string::npos && text >= 6;

@@ -162,6 +162,7 @@ TEST(BadCommandLine, NamesWhatWasMistyped) {
       {"roci-rehearse " + mission + " --speed fast", "fast"},
       {"roci-check " + mission + " --scenario nominel", "did you mean 'nominal'?"},
       {"roci-launch nowhere", "no mission \"nowhere\": give a folder with a mission.yaml"},
+      {"roci-rehearse nowhere", "no mission \"nowhere\": give a folder with a mission.yaml"},
       {"roci-keys make", "mission is required"},
       {"roci-site --side 100", "--out is required"}};
   for (const auto& [line, words] : slips) {

@@ -42,7 +42,7 @@ until_status() {  # name host pattern: asks there until the status shows it, or 
   step "$1" 0 "$status"
 }
 until_log() {  # host text: waits until its executive says it, or the run is over
-  while kill -0 $robot 2>/dev/null && ! grep -qs "$2" "$folder/$1"/exec_svc*.log; do sleep 0.1; done
+  grep -qm1 "$2" < <(tail -q -n +1 -F --pid=$robot "$folder/$1"/exec_svc*.log 2>/dev/null)
 }
 part() {  # CUT on|off
   case $1 in

@@ -50,8 +50,8 @@ class FasterTrial : public ::testing::Test {
  protected:
   ~FasterTrial() override { fs::remove_all(folder_); }
 
-  Flight flown(const std::string& scenario) {
-    return fly(ROCI_SOURCE_DIR "/missions/faster", "inproc", 1,
+  Flight flown(const std::string& scenario, int seed = 1) {
+    return fly(ROCI_SOURCE_DIR "/missions/faster", "inproc", seed,
                "--scenario " + scenario + " --run-folder " + folder_.string());
   }
   // What each rover did, in order: "scout motion w1".
@@ -82,7 +82,7 @@ TEST_F(FasterTrial, TheScoutGoesFirstAndMendsItsDriveBeforeTheTrap) {
   for (int w = 1; w <= 9; ++w) {
     const std::string to = "w" + std::to_string(w);
     expected.push_back("scout " + to);
-    if (w == 3) expected.push_back("scout " + to);  // once more, on the new path
+    if (w == 3) expected.insert(expected.end(), {"scout w2", "scout w3"});  // back, and on the new path
     expected.push_back("primary " + to);
   }
   EXPECT_EQ(deeds("motion"), expected);
@@ -123,6 +123,32 @@ TEST_F(FasterTrial, ALostScoutIsLeftBehindAndThePrimaryArrivesAlone) {
   EXPECT_EQ(std::ranges::count(motions, "scout w9"), 0);
 }
 
+// Where no scout has been its own wheels find the trap: it backs out, and goes around within the same drive.
+TEST_F(FasterTrial, APrimaryAloneFeelsTheTrapBacksOutAndGoesAround) {
+  const Flight flight = flown("scout_lost_early");
+  EXPECT_EQ(flight.summary["replans"], 1) << "for the scout, and none for the trap";
+  EXPECT_THAT(trace(), HasSubstr("backing_out(w3)"));
+  const auto motions = deeds("motion");
+  EXPECT_EQ(std::ranges::count(motions, "primary w3"), 2);
+  EXPECT_EQ(motions.back(), "primary w9");
+}
+
+// A circle reaches to the stand to which the scout is called, and behind the primary it cannot stand, either.
+TEST_F(FasterTrial, AScoutThatFindsNoWayBackIsLeftBehind) {
+  const Flight flight = flown("hidden", 86);
+  EXPECT_EQ(flight.summary["goals"]["achieved"], 2);
+  EXPECT_THAT(trace(), HasSubstr("scout.stand.w3 taken"));
+  EXPECT_THAT(deeds("downlink"), ::testing::ElementsAre("primary traverse_done"));
+}
+
+// The scout in a hazard and the primary blocked at once; and no primary is dug in.
+TEST_F(FasterTrial, APrimaryThatIsBlockedWhileTheScoutIsInAHazardGoesOn) {
+  const Flight flight = flown("hidden", 193);
+  EXPECT_EQ(flight.summary["goals"]["achieved"], 2);
+  EXPECT_THAT(trace(), HasSubstr("blocked_all_the_same"));
+  EXPECT_THAT(journaled_events(folder_ / "journal.sqlite"), Not(Contains(HasSubstr("bogged-down"))));
+}
+
 TEST_F(FasterTrial, ThePrimaryThatCannotFollowHasTheScoutBack) {
   flown("primary_blocked");
   EXPECT_THAT(trace(), HasSubstr("ComeBack from=w3 to=w2"));
@@ -147,10 +173,11 @@ TEST_F(FasterTrial, WithoutAPathTheGroundIsTold) {
   EXPECT_THAT(deeds("motion").back(), "primary w0");
 }
 
-constexpr const char* kScenarios[] = {"nominal",     "trial",           "trial_stopped", "trial_relaunched",
-                                      "fixed_times", "marker_not_seen", "scout_no_path", "primary_blocked",
-                                      "scout_lost",  "no_path",         "goal_change",   "repair_overrun",
-                                      "radio_loss",  "radio_cut",       "opportunity",   "opportunity_alone"};
+constexpr const char* kScenarios[] = {
+    "nominal",           "trial",           "trial_stopped",   "trial_relaunched", "fixed_times",
+    "marker_not_seen",   "scout_no_path",   "primary_blocked", "scout_lost",       "no_path",
+    "goal_change",       "repair_overrun",  "radio_loss",      "radio_cut",        "opportunity",
+    "opportunity_alone", "scout_lost_early"};
 #ifdef ROCI_ALL_TRANSPORTS
 constexpr const char* kTransports[] = {"inproc", "fastdds", "cyclonedds", "mixed"};
 #else

@@ -39,9 +39,8 @@ class QuarryFlight : public ::testing::Test {
 
   // By processes.
   Flight launch(const std::string& scenario, const std::string& dds, const std::string& more = "") {
-    run_folder = folder_ / ("run-" + std::to_string(++flights_));
     return fly(kMission, dds, 1,
-               "--scenario " + scenario + " --run-folder " + run_folder.string() + " " + more);
+               "--scenario " + scenario + " --run-folder " + new_folder().string() + " " + more);
   }
 
   // All services in this process.
@@ -50,7 +49,7 @@ class QuarryFlight : public ::testing::Test {
     rehearsal::FlightOptions options;
     options.run.mission = kMission;
     options.run.scenario = scenario;
-    options.run.run_folder = run_folder = folder_ / ("run-" + std::to_string(++flights_));
+    options.run.run_folder = new_folder();
     options.domain = ++domain;
     options.programs = {{"proof_planner", make_planner}, {"beacon_driver", beacon::make_service}};
     fs::create_directories(run_folder);
@@ -62,6 +61,8 @@ class QuarryFlight : public ::testing::Test {
     std::ifstream in(run_folder / name);
     return json::parse(in, nullptr, false);
   }
+
+  fs::path new_folder() { return run_folder = folder_ / ("run-" + std::to_string(++flights_)); }
 
   fs::path run_folder;  // of the newest flight
 
@@ -135,7 +136,8 @@ TEST_F(QuarryFlight, OneOfTwoExecutivesHasAStandbyAndBothAreKilled) {
   EXPECT_EQ(flight.summary["goals"].value("achieved", -1), 2);
   EXPECT_EQ(flight.summary["expected"].value("fault", "no report"), "");
   const json executives = flight.summary["executives"];
-  EXPECT_GT(executives["exec.digger"].value("epoch", 0), 1) << "of a pair who leads again does so in a later epoch";
+  EXPECT_GT(executives["exec.digger"].value("epoch", 0), 1)
+      << "of a pair who leads again does so in a later epoch";
   EXPECT_EQ(executives["exec.hauler"].value("epoch", 0), 2);
 }
 
@@ -157,6 +159,27 @@ TEST_F(QuarryFlight, WhoAsksForTheTraceOfTheRunIsToldThatThereAreTwo) {
                         " | tail -n +2 | sha256sum | cut -c1-64");
   EXPECT_THAT(one.output,
               HasSubstr(file("summary.json")["executives"]["exec.hauler"].value("trace_sha256", "none")));
+}
+
+// What both executives have heard is drawn once, in the order of its time.
+TEST_F(QuarryFlight, ThePictureOfTheRunHasTheTimelinesOfBoth) {
+  launch("nominal", "fastdds");
+  const fs::path svg = run_folder / "run.svg";
+  const Ended drawn =
+      run("roci map --json --run " + run_folder.string() + " --svg " + svg.string() + " 2>&1");
+  ASSERT_EQ(drawn.exit_code, 0) << drawn.output;
+  std::ostringstream text;
+  text << std::ifstream(svg).rdbuf();
+  EXPECT_THAT(text.str(), AllOf(HasSubstr("digger.boom: "), HasSubstr("hauler.wheels: ")));
+}
+
+TEST_F(QuarryFlight, WhoInterruptsItIsToldThatItWasStopped) {
+  const std::string folder = new_folder().string();
+  const Ended ended =
+      run("bash -c 'roci-launch " + kMission.string() + " --speed 1 --headless --run-folder " + folder +
+          " & until [ -s " + folder + "/launch.json ]; do sleep 0.1; done; kill -TERM $!; wait $!' 2>&1");
+  EXPECT_EQ(ended.exit_code, 1) << ended.output;
+  EXPECT_THAT(ended.output, HasSubstr("stopped by a signal before the mission had ended"));
 }
 
 }  // namespace

@@ -187,8 +187,8 @@ RunPicture picture_of(const MapArguments& arguments, const services::process::Co
     RunPicture out = picture_of_mission(mission, arguments);
     const auto trace = trace_of(run);
     if (!trace)
-      throw std::invalid_argument(run.string() +
-                                  ": roci-trace cannot read this run; roci-trace print FOLDER says why");
+      throw std::invalid_argument(
+          run.string() + ": roci-trace cannot read this run; name a run folder that roci runs lists");
     add_trace(*trace, out);
     if (out.map && fs::is_directory(mission))
       add_hazards(run, map_owners(mission::load_service_list_if_any(mission)), *out.map);
@@ -243,7 +243,8 @@ void write_svg(const std::string& file, const RunPicture& picture, bool as_json)
     std::cout << json_text(told) << "\n";
   } else {
     std::cout << file << ": " << picture.course.rows.size() << " timelines, " << picture.course.plans.size()
-              << " plans" << (picture.map ? "" : ", no ground") << "\n";
+              << (picture.course.plans.size() == 1 ? " plan" : " plans") << (picture.map ? "" : ", no ground")
+              << "\n";
   }
 }
 

@@ -7,9 +7,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <sstream>
 #include <stdexcept>
 #include <vector>
 
@@ -36,15 +38,15 @@ std::string text_at(const json& object, const char* key) {
   return there ? object[key].get<std::string>() : "";
 }
 
-// What `roci-trace print OPTIONS` says; nothing if it fails.
-std::optional<std::string> printed(const std::vector<std::string>& options) {
+// What `roci-trace print OPTIONS` says; nothing if it fails. Why it does stands on standard error unless it is `quiet`.
+std::optional<std::string> printed(const std::vector<std::string>& options, bool quiet) {
   const fs::path program = fs::read_symlink("/proc/self/exe").parent_path() / "roci-trace";
   std::array<int, 2> pipe_ends{};
   if (pipe2(pipe_ends.data(), O_CLOEXEC) != 0) return std::nullopt;
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_adddup2(&actions, pipe_ends[1], STDOUT_FILENO);
-  posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
+  if (quiet) posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
   std::vector<std::string> words{program.string(), "print"};
   words.insert(words.end(), options.begin(), options.end());
   std::vector<char*> pointers;
@@ -64,11 +66,54 @@ std::optional<std::string> printed(const std::vector<std::string>& options) {
   return out;
 }
 
+std::optional<std::string> trace_of_one(const fs::path& run) {
+  auto out = printed({"--decisions", run.string()}, true);
+  return out ? out : printed({run.string()}, false);
+}
+
+// The journals of a run with several executives; none where one alone commands.
+std::vector<fs::path> journals_of_several(const fs::path& run) {
+  std::vector<fs::path> out;
+  const json summary = read_json(run / "summary.json");
+  if (!summary.is_object() || !summary.contains("executives") || !summary["executives"].is_object())
+    return out;
+  for (const auto& [name, own] : summary["executives"].items())
+    if (const std::string journal = text_at(own, "journal"); !journal.empty())
+      out.push_back(run / fs::path(journal).filename());
+  return out;
+}
+
+std::int64_t time_of(const std::string& line) { return std::strtoll(line.c_str(), nullptr, 10); }
+
+// The lines of all in the order of their times; what several have heard stands once.
+std::string merged(const std::vector<std::string>& traces) {
+  std::vector<std::string> lines;
+  std::set<std::string> heard;
+  for (const std::string& trace : traces) {
+    std::istringstream in(trace);
+    for (std::string line; std::getline(in, line);) {
+      const bool observed = line.find(" observation ") != std::string::npos;
+      if (!observed || heard.insert(line).second) lines.push_back(std::move(line));
+    }
+  }
+  std::ranges::stable_sort(lines, {}, time_of);
+  std::string out;
+  for (const std::string& line : lines) out += line + "\n";
+  return out;
+}
+
 }  // namespace
 
 std::optional<std::string> trace_of(const fs::path& run) {
-  auto out = printed({"--decisions", run.string()});
-  return out ? out : printed({run.string()});
+  const auto journals = journals_of_several(run);
+  if (journals.empty()) return trace_of_one(run);
+  std::vector<std::string> traces;
+  for (const fs::path& journal : journals) {
+    auto trace = trace_of_one(journal);
+    if (!trace) return std::nullopt;
+    traces.push_back(std::move(*trace));
+  }
+  return merged(traces);
 }
 
 fs::path mission_of(const fs::path& run) {

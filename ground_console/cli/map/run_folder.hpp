@@ -11,8 +11,8 @@
 
 namespace roci::console::cli::map {
 
-/// Returns what `roci-trace print --decisions` says of the run (without decisions of a printed trace that has none), or nothing if it fails: that
-/// program reads journals, the ground tool does not.
+/// Returns what `roci-trace print --decisions` says of the run (without decisions of a printed trace that has none), of several executives in the order
+/// of time; or nothing if it fails, which that program has explained on standard error: it reads journals, the ground tool does not.
 std::optional<std::string> trace_of(const std::filesystem::path& run);
 
 /// The folder of the mission that was flown, which stands in the launcher's command line. Throws std::invalid_argument with the remedy.

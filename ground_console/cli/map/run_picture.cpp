@@ -100,7 +100,38 @@ void draw_places(const MissionMap& map, const Panel& panel, Svg& svg) {
   for (const NamedPlace& place : map.places) {
     const auto [x, y] = panel.at(place.at);
     svg.circle(x, y, 2.5, {.fill = kInkColour, .stroke = "#ffffff", .width = 1});
-    svg.text(x, y - 6, place.name, {.size = 10, .colour = kInkColour, .anchor = "middle", .halo = true});
+  }
+}
+
+struct Label {
+  double x, y;  // of the text's anchor, on its base line
+  const char* anchor;
+  double left, width;
+
+  bool meets(const Label& other) const {
+    return left < other.left + other.width && other.left < left + width &&
+           std::abs(y - other.y) < kLetters + 1;
+  }
+  static constexpr double kLetters = 10;
+};
+
+// Names of places, above all else: over its place, or where other names stand there, beside or below it.
+void draw_names(const MissionMap& map, const Panel& panel, Svg& svg) {
+  std::vector<Label> taken;
+  for (const NamedPlace& place : map.places) {
+    const auto [x, y] = panel.at(place.at);
+    const double width = 0.6 * Label::kLetters * static_cast<double>(place.name.size());
+    const std::array candidates{
+        Label{x, y - 6, "middle", x - width / 2, width}, Label{x + 7, y + 3.5, "start", x + 7, width},
+        Label{x - 7, y + 3.5, "end", x - 7 - width, width}, Label{x, y + 15, "middle", x - width / 2, width}};
+    const auto free = std::ranges::find_if(candidates, [&](const Label& one) {
+      return one.left >= panel.x() && one.left + one.width <= panel.x() + panel.width() &&
+             std::ranges::none_of(taken, [&](const Label& other) { return one.meets(other); });
+    });
+    const Label& label = free == candidates.end() ? candidates.front() : *free;
+    taken.push_back(label);
+    svg.text(label.x, label.y, place.name,
+             {.size = Label::kLetters, .colour = kInkColour, .anchor = label.anchor, .halo = true});
   }
 }
 
@@ -137,6 +168,7 @@ void draw_panel(const RunPicture& picture, const std::string& robot, const std::
   draw_places(map, panel, svg);
   for (const auto& [name, way] : map.driven)
     if (robot.empty() || name == robot) draw_way(way, colour_of(name, picture), true, panel, svg);
+  draw_names(map, panel, svg);
   svg.close();
   svg.rectangle(panel.x(), panel.y(), panel.width(), panel.height(), {.stroke = "#9aa1ab", .width = 1});
   draw_scale(panel, svg);
@@ -209,7 +241,8 @@ void draw_row(const Row& row, const std::string& colour, const Time& time, doubl
 // A step of the axis, so that there are at most ten of them.
 std::int64_t step_of(std::int64_t end_us) {
   constexpr std::int64_t kSecond = 1'000'000;
-  for (const std::int64_t step : {1, 5, 10, 30, 60, 120, 300, 600, 1800, 3600, 7200, 14400, 43200, 86400})
+  for (const std::int64_t step :
+       {1, 5, 10, 30, 60, 120, 300, 600, 1800, 3600, 7200, 14400, 43200, 86400, 172800, 432000, 864000})
     if (end_us / (step * kSecond) <= 10) return step * kSecond;
   return end_us / 10;
 }

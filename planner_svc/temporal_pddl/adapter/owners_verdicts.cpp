@@ -4,9 +4,11 @@
 #include <set>
 #include <sstream>
 
+#include "planner_svc/engine/owners_words.hpp"
+
 namespace roci::planner::temporal_pddl::adapter {
 
-using engine::FunctionOutcome, engine::FunctionUse, engine::Object;
+using engine::FunctionUse, engine::Object;
 
 namespace {
 
@@ -32,60 +34,11 @@ std::set<std::string> with_neighbours(const std::set<std::string>& named, const 
   return out;
 }
 
-std::string described(const std::string& name, const std::vector<Object>& objects) {
-  const auto object = std::ranges::find(objects, name, &Object::name);
-  if (object == objects.end() || object->properties.empty()) return name;
-  std::string properties;
-  for (const temporal::Property& property : object->properties) {
-    std::string value = property.value;
-    if (value.find('.') != std::string::npos) value.erase(value.find_last_not_of('0') + 1);
-    if (value.ends_with('.')) value.pop_back();
-    properties += (properties.empty() ? "" : " ") + property.name + "=" + value;
-  }
-  return name + " (" + properties + ")";
-}
-
-// What speaks against the object as the goal of the way.
-struct Against {
-  const FunctionUse* use = nullptr;  // null: some tuple with it has a value, or nobody was asked
-  bool proved = true;                // of every tuple with it its owner knows that there is no value
-};
-
-Against against(const std::string& object, std::span<const FunctionUse> uses) {
-  Against out;
-  for (const FunctionUse& use : uses) {
-    const auto& arguments = use.call.arguments;
-    const bool of_others =
-        std::ranges::any_of(arguments, [&](const std::string& one) { return one != object; });
-    if (arguments.empty() || arguments.back() != object || !of_others) continue;
-    if (use.answer.outcome == FunctionOutcome::value) return {};
-    const bool proved = use.answer.outcome == FunctionOutcome::unreachable;
-    if (out.use == nullptr || (out.proved && !proved)) out.use = &use;
-    out.proved = out.proved && proved;
-  }
-  return out;
-}
-
 }  // namespace
 
 std::string words_against(const std::vector<std::string>& facts, const pddl::Problem& problem,
                           const std::vector<Object>& objects, std::span<const FunctionUse> uses) {
-  for (const std::string& object : with_neighbours(objects_in(facts), problem)) {
-    const auto [use, proved] = against(object, uses);
-    if (use == nullptr) continue;
-    const engine::Provenance& said = use->answer.provenance;
-    if (!proved)
-      return "no way to " + described(object, objects) + " is known: " + said.owner +
-             " found none with the effort spent (" + use->call.function + ", model " + said.model_version +
-             "), which proves nothing; ask again, or let it search longer";
-    const std::string about = object + ": ";
-    if (use->answer.reason.starts_with(about))
-      return described(object, objects) + ": " + use->answer.reason.substr(about.size()) + " (says " +
-             said.owner + ", model " + said.model_version + ")";
-    return described(object, objects) + " is unreachable (says " + said.owner + ", " + use->call.function +
-           ", model " + said.model_version + ")";
-  }
-  return "";
+  return engine::words_against(with_neighbours(objects_in(facts), problem), objects, uses);
 }
 
 }  // namespace roci::planner::temporal_pddl::adapter

@@ -11,11 +11,7 @@
 
 namespace roci::planner::temporal_pddl::adapter {
 
-/// One sentence: an object that the facts name, or that a fact of the problem joins with one of these, and for which the
-/// owner of a function gave no value with any other object. Empty: there is no such object. E.g. "place-far (x=190 y=60):
-/// the rover cannot stand there (steep) (says pathplan_svc, model 1)", or without words of the owner "place-far (x=190 y=60) is
-/// unreachable (says pathplan_svc, traverse_time, model 1)". Where an owner only found none with the effort spent, nothing is proved
-/// and the sentence says so: "no way to place-far (x=190 y=60) is known: pathplan_svc found none with the effort spent (…)".
+/// engine::words_against() the objects that the facts name, or that a fact of the problem joins with one of these.
 std::string words_against(const std::vector<std::string>& facts, const pddl::Problem& problem,
                           const std::vector<engine::Object>& objects,
                           std::span<const engine::FunctionUse> uses);

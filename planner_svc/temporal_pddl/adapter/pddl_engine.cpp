@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "core/pddl/check.hpp"
-#include "core/pddl/function_table.hpp"
 #include "core/pddl/plan_text.hpp"
+#include "planner_svc/engine/table_functions.hpp"
 #include "planner_svc/temporal_pddl/adapter/owners_verdicts.hpp"
 #include "planner_svc/temporal_pddl/extraction/flexible_plan_export.hpp"
 #include "planner_svc/temporal_pddl/planner.hpp"
@@ -18,7 +18,7 @@
 namespace roci::planner::temporal_pddl::adapter {
 
 using call::BlockedFact, call::Budget, call::Monitor, call::NamedGoal, call::Options;
-using engine::Answer, engine::BlockingGoal, engine::FunctionOutcome, engine::FunctionSource,
+using engine::Answer, engine::BlockingGoal, engine::FunctionSource,
     engine::FunctionUse, engine::Limits, engine::RemainingAction, engine::Request;
 using temporal::Verdict;
 
@@ -36,23 +36,6 @@ std::vector<pddl::PlanStep> steps_of(const std::vector<RemainingAction>& remaini
     out.push_back(std::move(step));
   }
   return out;
-}
-
-// What owners said, as roci-plan reads it. What has no value otherwise stands in it as unreachable.
-pddl::FunctionTables tables_of(const std::vector<FunctionUse>& uses) {
-  pddl::FunctionTables tables;
-  for (const FunctionUse& use : uses) {
-    const bool has_value = use.answer.outcome == FunctionOutcome::value;
-    if (use.answer.outcome == FunctionOutcome::unknown) {
-      tables.unknown.insert(application(use.call));
-    } else if (has_value && !use.answer.is_exact()) {
-      tables.lower_bounds.emplace(application(use.call), use.answer.value);
-    } else {
-      pddl::put(tables.exact, use.call.function, use.call.arguments,
-                has_value ? std::optional(use.answer.value) : std::nullopt);
-    }
-  }
-  return tables;
 }
 
 // The facts that a goal asks for. Its condition is a conjunction over facts as timelines; other conditions
@@ -139,7 +122,7 @@ Answer PddlEngine::answer(const Request& request, const Limits& limits, Function
   } catch (const std::exception& error) {
     out = engine::without_plan(Verdict::crashed, error.what());
   }
-  out.record = {{".pddl", request.problem_text}, {".values", pddl::print(tables_of(used))}};
+  out.record = {{".pddl", request.problem_text}, {".values", pddl::print(engine::tables_of(used))}};
   if (!remaining.empty()) out.record.push_back({".remaining", pddl::print_plan(remaining)});
   return out;
 }

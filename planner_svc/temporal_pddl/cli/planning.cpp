@@ -11,14 +11,14 @@
 
 #include "core/pddl/function_table.hpp"
 #include "core/pddl/plan_text.hpp"
+#include "planner_svc/engine/table_functions.hpp"
 #include "planner_svc/temporal_pddl/cli/progress_line.hpp"
-#include "planner_svc/temporal_pddl/cli/table_functions.hpp"
 #include "planner_svc/temporal_pddl/planner.hpp"
 
 namespace roci::planner::temporal_pddl::cli {
 
 using call::Budget, call::Monitor, call::Options, call::WindowExtraction;
-using engine::FunctionSource, engine::NoFunctions;
+using engine::FunctionSource, engine::NoFunctions, engine::TableFunctions;
 
 namespace {
 

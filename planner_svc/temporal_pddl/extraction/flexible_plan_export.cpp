@@ -1,12 +1,12 @@
 #include "planner_svc/temporal_pddl/extraction/flexible_plan_export.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <optional>
 #include <string>
 #include <variant>
 
 #include "core/pddl/printer.hpp"
+#include "planner_svc/engine/function_words.hpp"
 
 namespace roci::planner::temporal_pddl::extraction {
 
@@ -184,11 +184,7 @@ temporal::FlexiblePlan export_plan(const Plan& plan, const std::vector<FunctionU
   for (const FunctionUse& use : functions) {
     if (use.answer.outcome != FunctionOutcome::value || !use.answer.is_exact() || !concerns(use, plan))
       continue;
-    std::uint64_t version = 0;
-    const std::string& text = use.answer.provenance.model_version;
-    std::from_chars(text.data(), text.data() + text.size(), version);
-    out.function_values.push_back({use.call.function, use.call.arguments, use.answer.value,
-                                   use.answer.provenance.owner, version, use.answer.provenance.time});
+    out.function_values.push_back(engine::recorded(use));
   }
   return out;
 }

@@ -94,7 +94,8 @@ Grounding ground(const pddl::Domain& domain, const pddl::Problem& problem, Funct
   const std::vector<LiftedAction> actions = lower_actions(domain, symbols);
   ConstantFunctions constants(problem, actions, symbols);
   constants.load_external(
-      functions, [&] { return limits.cancelled(); }, symbols, report.functions);
+      functions, [&] { return limits.cancelled(); }, symbols,
+      report.keeps_functions ? &report.functions : nullptr);
   const StaticModel static_model(problem, actions, symbols, constants);
 
   GroundModel model =

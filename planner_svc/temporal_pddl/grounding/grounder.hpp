@@ -25,6 +25,7 @@ struct Grounding {
 /// Holds what grounding has to tell beside its result; it is filled in whatever happens.
 struct GroundingReport {
   std::vector<engine::FunctionUse> functions;  ///< every external value that was asked for
+  bool keeps_functions = true;                 ///< false: nobody wants them, they are many
   /// "FILE:LINE:COLUMN: warning: …", one for each number that has no value though something reads it.
   std::vector<std::string> warnings;
   std::size_t shorter_than_separation = 0;  ///< action instances, see impossible_actions.hpp

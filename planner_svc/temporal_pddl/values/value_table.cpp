@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <sstream>
 #include <utility>
 
@@ -22,6 +23,10 @@ bool is_above(double bound, double value) {
   return bound > value + 1e-9 * std::max({1.0, std::abs(bound), std::abs(value)});
 }
 
+auto arguments_in(const std::vector<FunctionCall>& calls) {
+  return [&calls](std::uint32_t index) -> const std::vector<std::string>& { return calls[index].arguments; };
+}
+
 std::string broken_bound(const FunctionCall& call, const FunctionValue& bound, const FunctionValue& exact) {
   std::ostringstream text;
   text << (exact.provenance.owner.empty() ? "the owner" : exact.provenance.owner) << " gave " << bound.value
@@ -32,14 +37,22 @@ std::string broken_bound(const FunctionCall& call, const FunctionValue& bound, c
 
 }  // namespace
 
+std::optional<std::size_t> ValueTable::Function::find(const FunctionCall& call) const {
+  const auto place = std::ranges::lower_bound(order, call.arguments, {}, arguments_in(calls));
+  if (place == order.end() || calls[*place].arguments != call.arguments) return std::nullopt;
+  return *place;
+}
+
 // What the owner cannot say at all, or proved, it would say again.
 bool ValueTable::Known::exact() const {
   return asked && (value.is_exact() || value.outcome == FunctionOutcome::unreachable);
 }
 
-std::vector<FunctionValue> ValueTable::ask(std::vector<FunctionCall> calls, FunctionAccuracy accuracy) {
+// The calls of the table itself are asked, as there are many; they name no accuracy otherwise.
+std::vector<FunctionValue> ValueTable::ask(std::span<FunctionCall> calls, FunctionAccuracy accuracy) {
   for (FunctionCall& call : calls) call.accuracy = accuracy;
   std::vector<FunctionValue> answers = owners_.evaluate(calls, cancelled_);
+  for (FunctionCall& call : calls) call.accuracy = FunctionCall{}.accuracy;
   if (answers.size() != calls.size()) answers.assign(calls.size(), FunctionValue{});
   for (FunctionValue& answer : answers)
     if (is_value(answer) && !std::isfinite(answer.value)) answer.outcome = FunctionOutcome::not_a_number;
@@ -49,7 +62,9 @@ std::vector<FunctionValue> ValueTable::ask(std::vector<FunctionCall> calls, Func
 void ValueTable::load(Function& function, std::span<const FunctionCall> calls) {
   function.calls.assign(calls.begin(), calls.end());
   function.known.resize(calls.size());
-  for (std::size_t i = 0; i < calls.size(); ++i) function.index.emplace(application(calls[i]), i);
+  function.order.resize(calls.size());
+  std::iota(function.order.begin(), function.order.end(), std::uint32_t{0});
+  std::ranges::stable_sort(function.order, {}, arguments_in(function.calls));
   const bool exactly = exactly_.contains(calls.front().function);
   if (mode_ == FunctionsMode::lazy && !exactly) return;
   std::vector<FunctionValue> answers =
@@ -69,8 +84,7 @@ std::vector<FunctionValue> ValueTable::evaluate(std::span<const FunctionCall> ca
   if (function.calls.empty()) load(function, calls);
   std::vector<FunctionValue> answers;
   answers.reserve(calls.size());
-  for (const FunctionCall& call : calls)
-    answers.push_back(given(function, function.index.at(application(call))));
+  for (const FunctionCall& call : calls) answers.push_back(given(function, function.find(call).value()));
   return answers;
 }
 
@@ -93,8 +107,7 @@ Refined ValueTable::refine(std::span<const FunctionCall> calls) {
   for (const FunctionCall& call : calls) {
     const auto function = functions_.find(call.function);
     if (function == functions_.end()) continue;
-    const auto index = function->second.index.find(application(call));
-    if (index != function->second.index.end()) wanted[call.function].insert(index->second);
+    if (const auto index = function->second.find(call)) wanted[call.function].insert(*index);
   }
   Refined total;
   for (const auto& [name, tuples] : wanted) {
@@ -127,7 +140,7 @@ Refined ValueTable::refine(Function& function, const std::set<std::size_t>& want
   }
   Refined refined;
   if (calls.empty()) return refined;
-  std::vector<FunctionValue> answers = ask(std::move(calls), FunctionAccuracy::exact);
+  std::vector<FunctionValue> answers = ask(calls, FunctionAccuracy::exact);
   for (std::size_t k = 0; k < tuples.size(); ++k) {
     answers[k].accuracy = FunctionAccuracy::exact;  // also of what did not come: it is not asked for again
     take_exact(function, tuples[k], std::move(answers[k]), refined);
@@ -156,11 +169,19 @@ bool ValueTable::is_exact() const {
   });
 }
 
-std::vector<FunctionUse> ValueTable::uses() const {
+std::vector<FunctionUse> ValueTable::take_uses() {
   std::vector<FunctionUse> uses;
+  std::size_t count = 0;
   for (const auto& [name, function] : functions_)
-    for (std::size_t i = 0; i < function.calls.size(); ++i)
-      if (function.known[i].asked) uses.push_back({function.calls[i], function.known[i].value});
+    count += static_cast<std::size_t>(std::ranges::count_if(function.known, &Known::asked));
+  uses.reserve(count);
+  for (auto& [name, function] : functions_) {
+    for (std::size_t i = 0; i < function.calls.size(); ++i) {
+      if (function.known[i].asked)
+        uses.push_back({std::move(function.calls[i]), std::move(function.known[i].value)});
+    }
+  }
+  functions_.clear();
   return uses;
 }
 

@@ -3,12 +3,13 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <map>
+#include <optional>
 #include <set>
 #include <span>
 #include <string>
-#include <unordered_map>
 #include <vector>
 
 #include "planner_svc/engine/function_source.hpp"
@@ -46,8 +47,8 @@ class ValueTable final : public engine::FunctionSource {
   /// While `alone`, evaluate() gives exact values alone: other tuples have none.
   void give_exact_alone(bool alone) { exact_alone_ = alone; }
 
-  /// Returns everything that owners said, of each tuple the best.
-  std::vector<engine::FunctionUse> uses() const;
+  /// Returns everything that owners said, of each tuple the best, and knows nothing any more.
+  std::vector<engine::FunctionUse> take_uses();
   /// "OWNER …", one for each bound that was none.
   const std::vector<std::string>& warnings() const { return warnings_; }
 
@@ -59,14 +60,16 @@ class ValueTable final : public engine::FunctionSource {
   };
   struct Function {
     std::vector<engine::FunctionCall> calls;
-    std::vector<Known> known;                            // of each of the calls
-    std::unordered_map<std::string, std::size_t> index;  // of the calls, by application
-    double smallest = 1;                                 // exact value
+    std::vector<Known> known;          // of each of the calls
+    std::vector<std::uint32_t> order;  // of the calls, by their arguments
+    double smallest = 1;               // exact value
     bool has_exact = false;
+
+    std::optional<std::size_t> find(const engine::FunctionCall& call) const;
   };
 
   void load(Function& function, std::span<const engine::FunctionCall> calls);
-  std::vector<engine::FunctionValue> ask(std::vector<engine::FunctionCall> calls,
+  std::vector<engine::FunctionValue> ask(std::span<engine::FunctionCall> calls,
                                          temporal::FunctionAccuracy accuracy);
   void take_exact(Function& function, std::size_t index, engine::FunctionValue value, Refined& refined);
   Refined refine(Function& function, const std::set<std::size_t>& wanted);

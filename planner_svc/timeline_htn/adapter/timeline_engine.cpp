@@ -2,9 +2,12 @@
 
 #include <algorithm>
 
+#include "planner_svc/engine/table_functions.hpp"
+#include "planner_svc/timeline_htn/adapter/owners_values.hpp"
 #include "planner_svc/timeline_htn/extraction/plan_of.hpp"
 #include "planner_svc/timeline_htn/model/check.hpp"
 #include "planner_svc/timeline_htn/reading/load.hpp"
+#include "planner_svc/timeline_htn/request/asked_numbers.hpp"
 #include "planner_svc/timeline_htn/request/problem_of.hpp"
 
 namespace roci::planner::timeline_htn::adapter {
@@ -92,14 +95,20 @@ Answer answer_of(const Request& request, const Model& model, const Resolution& r
 
 }  // namespace
 
-Answer TimelineEngine::answer(const Request& request, const Limits& limits, FunctionSource&) {
+Answer TimelineEngine::answer(const Request& request, const Limits& limits, FunctionSource& functions) {
   mission::Findings findings;
   std::optional<Model> model = request::read_model(request, findings);
   if (!model) return engine::without_plan(Verdict::invalid_input, reading::errors_of(findings));
   const std::vector<request::Misfit> misfits = request::put_request(request, *model);
   if (!misfits.empty()) return misfitting(misfits);
+  const request::Asked asked = request::ask_numbers(*model, functions, limits.cancelled);
+  if (asked.verdict != Verdict::solved) return engine::without_plan(asked.verdict, asked.reason);
   const std::vector<model::Fault> faults = model::check(*model);
-  if (!model::usable(faults)) return faulty(faults, *model);
+  if (!model::usable(faults)) {
+    Answer out = faulty(faults, *model);
+    explain(out, *model, request, asked.uses);
+    return out;
+  }
   Settings settings = settings_;
   if (!request.resolvers.empty()) settings = {{}, request.threads};
   for (const std::string& name : request.resolvers) {
@@ -113,6 +122,9 @@ Answer TimelineEngine::answer(const Request& request, const Limits& limits, Func
                       request.memory_bytes, [&] { return limits.cancelled() || limits.out_of_time(); });
   if (resolution.outcome == Outcome::cancelled) out_of_time = !limits.cancelled();
   Answer out = answer_of(request, *model, resolution, out_of_time);
+  if (out.plan) out.plan->function_values = values_of(*resolution.search, *out.plan, asked.uses);
+  explain(out, *model, request, asked.uses);
+  if (!asked.uses.empty()) out.record = {{".values", pddl::print(engine::tables_of(asked.uses))}};
   for (const auto& finding : findings.all()) out.warnings.push_back(finding.text());
   return out;
 }

@@ -8,6 +8,7 @@
 #include "planner_svc/timeline_htn/adapter/asked_decision.hpp"
 #include "planner_svc/timeline_htn/model/check.hpp"
 #include "planner_svc/timeline_htn/reading/load.hpp"
+#include "planner_svc/timeline_htn/request/asked_numbers.hpp"
 #include "planner_svc/timeline_htn/request/problem_of.hpp"
 #include "planner_svc/timeline_htn/search/search.hpp"
 
@@ -28,6 +29,7 @@ model::Model read(const OpenDecision& open) {
   engine::Request without_goals = open.request;
   without_goals.goals.clear();
   static_cast<void>(request::put_request(without_goals, *model));  // states follow
+  request::put_recorded(open.plan.function_values, *model);
   return std::move(*model);
 }
 

@@ -5,15 +5,6 @@
 
 namespace roci::planner::timeline_htn::checking {
 
-namespace {
-
-/// Is what an observer sees of a state.
-struct Seen {
-  std::string timeline;
-  temporal::Value value;
-  friend bool operator==(const Seen&, const Seen&) = default;
-};
-
 std::optional<Seen> seen(const Version& version, const GroundState& state) {
   const auto& observed = version.definition(state).observed;
   if (!observed) return std::nullopt;
@@ -28,6 +19,8 @@ std::optional<Seen> seen(const Version& version, const GroundState& state) {
     value.arguments.push_back(version.model.objects[model::object_of(term, state.objects)].name);
   return Seen{observed->timeline, value};
 }
+
+namespace {
 
 bool fits(const Version& version, const Part& part, const model::Need& need, const GroundState& other) {
   Binding binding = part.state->objects;

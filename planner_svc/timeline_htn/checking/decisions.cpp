@@ -157,13 +157,12 @@ std::string conclusion_fault(const Asked& asked) {
     const Part& part = asked.version.parts[above];
     if (!part.state || !part.value) continue;
     const auto& values = asked.version.timelines[part.state->component];
-    if (*part.value + 1 >= values.size()) continue;
-    const auto& observed = asked.version.definition(values[*part.value + 1].state).observed;
+    if (*part.value == 0 || *part.value + 1 >= values.size()) continue;
+    const auto before = seen(asked.version, values[*part.value - 1].state);
+    const auto after = seen(asked.version, values[*part.value + 1].state);
+    if (!after || after == before) continue;
     for (const temporal::Impact& impact : part.activity->impacts)
-      if (observed && impact.timeline == observed->timeline &&
-          impact.moment == temporal::ImpactWhen::at_end &&
-          temporal::to_text(impact.amount).starts_with(observed->word) &&
-          values[*part.value + 1].state != values[*part.value - 1].state)
+      if (impact.moment == temporal::ImpactWhen::at_end && Seen{impact.timeline, impact.amount} == *after)
         return "whatever is decided, " + part.activity->name + " ends with " +
                asked.version.text(values[*part.value + 1].state);
   }

@@ -13,6 +13,15 @@ struct Decomposition {
   std::vector<Index> part_of;
 };
 
+/// Is what an observer sees of a state.
+struct Seen {
+  std::string timeline;
+  temporal::Value value;
+  friend bool operator==(const Seen&, const Seen&) = default;
+};
+/// Returns it, or nothing where nobody observes the state.
+std::optional<Seen> seen(const Version& version, const GroundState& state);
+
 /// By activity; empty for those that are not decomposed.
 using Decompositions = std::vector<std::vector<Decomposition>>;
 

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <functional>
+#include <map>
 
 #include "planner_svc/timeline_htn/checking/check.hpp"
+#include "planner_svc/timeline_htn/checking/owners_values.hpp"
 #include "planner_svc/timeline_htn/model/check.hpp"
 #include "planner_svc/timeline_htn/reading/load.hpp"
 
@@ -117,6 +119,44 @@ void put_relations(const engine::Request& request, Model& model) {
   }
 }
 
+// Walks the predictions of the request, as it stands in order of time or not, and keeps what changes the state.
+void put_predicted(const engine::Request& request, Model& model, std::vector<std::string>& out) {
+  for (Index c = 0; c < model.problem->predicted.size(); ++c) {
+    const auto& states = model.components[c].states;
+    const auto shows = [&](const std::string& timeline) {
+      return std::ranges::any_of(states, [&](const model::State& state) {
+        return state.observed && state.observed->timeline == timeline;
+      });
+    };
+    const bool observed =
+        std::ranges::any_of(states, [](const model::State& state) { return state.observed.has_value(); });
+    if (!model.problem->predicted[c] || !observed) continue;
+    std::multimap<temporal::Time, const engine::PredictedValue*> ahead;
+    for (const engine::PredictedValue& one : request.predictions)
+      if (one.at > request.origin && shows(one.timeline)) ahead.emplace(one.at, &one);
+    auto& values = *model.problem->predicted[c];
+    values.clear();
+    for (auto entry = ahead.begin(); entry != ahead.end(); ++entry) {
+      const auto& [at, one] = *entry;
+      if (std::next(entry) != ahead.end() && std::next(entry)->first == at) continue;  // the last one counts
+      const model::Pattern* before = !values.empty()             ? &values.back().state
+                                     : model.problem->initial[c] ? &*model.problem->initial[c]
+                                                                 : nullptr;
+      std::optional<model::Pattern> state;
+      each_state(model, c, [&](const GroundState& known) {
+        if (!shows_as(model, known, one->timeline, one->value)) return false;
+        state = pattern_of(known);
+        return true;
+      });
+      if (!state)
+        out.push_back(one->timeline + " = " + temporal::to_text(one->value) +
+                      " is predicted, and is no state of '" + model.components[c].name + "'");
+      else if (before == nullptr || *state != *before)
+        values.push_back({at - request.origin, *state});
+    }
+  }
+}
+
 void put_goals(const engine::Request& request, Model& model, std::vector<std::string>& out) {
   const auto since_origin = [&](temporal::Time time) {
     return temporal::bounded(time) ? std::max(temporal::Duration{0}, time - request.origin) : time;
@@ -136,7 +176,8 @@ void put_goals(const engine::Request& request, Model& model, std::vector<std::st
 
 }  // namespace
 
-std::optional<Model> model_of(const engine::Request& request, std::vector<std::string>& out) {
+std::optional<Model> model_of(const engine::Request& request, std::vector<std::string>& out,
+                              std::span<const engine::FunctionUse> values) {
   std::vector<reading::Text> texts{{"model", request.model}};
   if (!request.problem_text.empty()) texts.push_back({"problem", request.problem_text});
   mission::Findings findings;
@@ -156,7 +197,9 @@ std::optional<Model> model_of(const engine::Request& request, std::vector<std::s
     model->problem->initial.resize(model->components.size());
   }
   put_relations(request, *model);
+  put_values(values, *model);
   put_states(request, *model, out);
+  put_predicted(request, *model, out);
   put_goals(request, *model, out);
   if (out.empty())
     for (const model::Fault& fault : model::check(*model))
@@ -166,8 +209,11 @@ std::optional<Model> model_of(const engine::Request& request, std::vector<std::s
 
 std::vector<std::string> TimelineChecker::faults(const engine::CheckedPlan& checked) const {
   std::vector<std::string> out;
-  const auto model = model_of(checked.request, out);
-  return model ? checking::faults(*model, checked.plan) : out;
+  const auto model = model_of(checked.request, out, checked.values);
+  if (!model) return out;
+  out = checking::faults(*model, checked.plan);
+  if (out.empty()) check_values(*model, checked.plan, checked.values, out);
+  return out;
 }
 
 }  // namespace roci::planner::timeline_htn::checking

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -17,7 +18,9 @@ class TimelineChecker final : public engine::Checker {
 };
 
 /// Returns the model with the request in place of its own problem, or notes why there is none. Where a component stands is found by trying
-/// all its states until one shows as what was observed; a goal is a state that shows as what the goal compares with, or several.
-std::optional<model::Model> model_of(const engine::Request& request, std::vector<std::string>& out);
+/// all its states until one shows as what was observed; a goal is a state that shows as what the goal compares with, or several. `values` are
+/// the numbers that services gave.
+std::optional<model::Model> model_of(const engine::Request& request, std::vector<std::string>& out,
+                                     std::span<const engine::FunctionUse> values = {});
 
 }  // namespace roci::planner::timeline_htn::checking

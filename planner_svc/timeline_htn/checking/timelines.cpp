@@ -16,6 +16,34 @@ bool follows(const model::Component& component, const GroundState& before, const
   });
 }
 
+// What is known to come stands in the plan, at its times, and nothing else.
+void check_predicted(const Version& version, Index c, Faults& out) {
+  const model::Problem& problem = *version.model.problem;
+  if (c >= problem.predicted.size() || !problem.predicted[c]) return;
+  const std::vector<Value>& values = version.timelines[c];
+  const std::string name = "timeline " + version.model.components[c].name + ": ";
+  std::size_t next = 1;
+  Binding none;
+  for (const model::PredictedState& known : *problem.predicted[c]) {
+    if (known.at >= problem.horizon) break;
+    const std::string expected =
+        to_text(version.model, known.state, {}) + " is predicted from " + to_text(known.at) + " on";
+    if (next == values.size() || !unify(known.state, values[next].state, none)) {
+      out.push_back(name + expected + ", and the plan has " +
+                    (next == values.size() ? std::string("nothing") : version.text(values[next].state)) +
+                    " there");
+      return;
+    }
+    if (!version.network.implies(0, values[next].start, known.at, known.at))
+      out.push_back(name + expected + ", and in the plan it comes at " +
+                    to_text(version.network.between(0, values[next].start).lower) + " to " +
+                    to_text(version.network.between(0, values[next].start).upper));
+    ++next;
+  }
+  if (next < values.size())
+    out.push_back(name + "the plan has " + version.text(values[next].state) + ", which nothing predicts");
+}
+
 void check_values(const Version& version, Index c, Faults& out) {
   const model::Component& component = version.model.components[c];
   const std::vector<Value>& values = version.timelines[c];
@@ -37,6 +65,7 @@ void check_values(const Version& version, Index c, Faults& out) {
     if (i > 0 && !follows(component, values[i - 1].state, state))
       fault("no transition leads from " + version.text(values[i - 1].state) + " to " + version.text(state));
   }
+  check_predicted(version, c, out);
   const StateKind last = version.definition(values.back().state).kind;
   if (last != StateKind::resting && (last != StateKind::error || values.size() > 1))
     fault("it ends with " + version.text(values.back().state) + ", which is no state to rest in");

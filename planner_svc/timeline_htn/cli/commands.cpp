@@ -1,16 +1,24 @@
 #include "planner_svc/timeline_htn/cli/commands.hpp"
 
+#include <fstream>
 #include <iomanip>
+#include <iterator>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <ostream>
 #include <set>
 #include <sstream>
 
+#include "core/pddl/source.hpp"
 #include "core/temporal/execution_windows.hpp"
+#include "planner_svc/engine/function_words.hpp"
+#include "planner_svc/engine/table_functions.hpp"
 #include "planner_svc/timeline_htn/extraction/matrix.hpp"
 #include "planner_svc/timeline_htn/extraction/plan_of.hpp"
+#include "planner_svc/timeline_htn/model/check.hpp"
 #include "planner_svc/timeline_htn/reading/load.hpp"
+#include "planner_svc/timeline_htn/request/asked_numbers.hpp"
 
 namespace roci::planner::timeline_htn::cli {
 
@@ -65,40 +73,81 @@ std::optional<Model> load(const Files& files, const Output& output) {
   return model;
 }
 
-const char* word(search::Outcome outcome) {
-  switch (outcome) {
-    case search::Outcome::solved:
-      return "solved";
+/// Is why there is no plan.
+struct NoPlan {
+  const char* verdict;
+  std::string reason;
+  ExitCode code = unsolved;
+};
+
+NoPlan why_not(const search::Resolution& resolution, const std::string& doubt, const PlanOptions& options) {
+  const std::string reason = resolution.search->reason();
+  switch (resolution.outcome) {
     case search::Outcome::exhausted:
-      return "unsolvable";
+      if (!doubt.empty()) return {"timeout", doubt + "; without that, " + reason};
+      return {"unsolvable", reason};
     case search::Outcome::out_of_memory:
-      return "out_of_memory";
+      return {"out_of_memory",
+              "the searches have kept all of --memory " + std::to_string(options.megabytes) +
+                  " MiB; give them more, fewer resolvers or another heuristic; so far: " + reason,
+              out_of_memory};
     case search::Outcome::cancelled:
-      return "cancelled";
-    case search::Outcome::searching:
-      return "timeout";
+      return {"cancelled", reason};
+    default:
+      return {"timeout",
+              "no plan was found in --work " + std::to_string(options.work) + " steps; so far: " + reason};
   }
-  return "timeout";
 }
 
-// Plans, and tells why not where there is no plan.
-std::optional<FlexiblePlan> solve(const search::Resolution& resolution, const Output& output) {
-  const search::Outcome outcome = resolution.outcome;
-  const search::Search& search = *resolution.search;
-  if (outcome == search::Outcome::solved)
-    return extraction::plan_of(search, {"plan", "a", temporal::Time{0}});
+ExitCode tell(const NoPlan& why, const Output& output) {
   if (output.json) {
-    const nlohmann::ordered_json json = {{"verdict", word(outcome)}, {"reason", search.reason()}};
+    const nlohmann::ordered_json json = {{"verdict", why.verdict}, {"reason", why.reason}};
     output.out << json.dump(2) << '\n';
   } else {
-    output.errors << word(outcome) << ": " << search.reason() << '\n';
+    output.errors << why.verdict << ": " << why.reason << '\n';
   }
-  return std::nullopt;
+  return why.code;
 }
 
-search::Resolution resolve(const Model& model, const PlanOptions& options) {
-  return search::resolve(model, options.resolvers, options.threads, options.work, options.memory_bytes,
-                         [] { return false; });
+request::Asked ask(Model& model, const std::filesystem::path& file) {
+  std::unique_ptr<engine::FunctionSource> functions = std::make_unique<engine::NoFunctions>();
+  if (!file.empty()) {
+    std::ifstream in(file);
+    const std::string text{std::istreambuf_iterator<char>(in), {}};
+    functions = std::make_unique<engine::TableFunctions>(pddl::parse_function_tables(text, file.string()),
+                                                         file.string());
+  }
+  return request::ask_numbers(model, *functions, [] { return false; });
+}
+
+/// Is a plan, or the exit code with which its lack was told.
+struct Solved {
+  ExitCode code = done;
+  FlexiblePlan plan{};
+  search::Count count{};
+};
+
+// Plans, and tells why not where there is no plan.
+Solved solve(Model& model, const PlanOptions& options, const Output& output) {
+  request::Asked asked;
+  try {
+    asked = ask(model, options.functions);
+  } catch (const pddl::ParseError& error) {
+    return {tell({"invalid_input", error.what(), faulty}, output)};
+  }
+  if (asked.verdict != temporal::Verdict::solved)
+    return {tell({to_string(asked.verdict), asked.reason,
+                  asked.verdict == temporal::Verdict::function_unavailable ? no_functions : faulty},
+                 output)};
+  for (const model::Fault& fault : model::check(model))  // of what stands on these numbers
+    if (!fault.warning) return {tell({"unsolvable", fault.what + "; " + fault.remedy}, output)};
+  const search::Resolution resolution =
+      search::resolve(model, options.resolvers, options.threads, options.work, options.megabytes << 20U,
+                      [] { return false; });
+  if (resolution.outcome != search::Outcome::solved)
+    return {tell(why_not(resolution, engine::doubt_of(asked.uses), options), output)};
+  return {done, extraction::plan_of(*resolution.search, {"plan", "a", temporal::Time{0}}),
+          resolution.search->count()};
 }
 
 std::size_t depth_of(const FlexiblePlan& plan, const PlanActivity& activity) {
@@ -149,6 +198,35 @@ nlohmann::ordered_json json_of(const FlexiblePlan& plan, const temporal::Executi
   return {{"activities", activities}, {"decisions", decisions}};
 }
 
+// What is known to come of a component: the state in which it begins, and each later one with its time.
+std::vector<model::PredictedState> predicted_states(const Model& model, model::Index component) {
+  std::vector<model::PredictedState> out{{temporal::Duration{0}, *model.problem->initial[component]}};
+  for (const model::PredictedState& one : *model.problem->predicted[component])
+    if (one.at < model.problem->horizon) out.push_back(one);
+  return out;
+}
+
+void print_predicted(const Model& model, std::ostream& out) {
+  for (model::Index c = 0; c < model.components.size(); ++c) {
+    if (!model::is_predicted(model, c)) continue;
+    out << "predicted:";
+    for (const model::PredictedState& one : predicted_states(model, c))
+      out << (one.at == temporal::Duration{0} ? " " : ", ") << to_text(model, one.state, {}) << " ["
+          << seconds(one.at) << "]";
+    out << '\n';
+  }
+}
+
+nlohmann::ordered_json predicted_json(const Model& model) {
+  auto out = nlohmann::ordered_json::object();
+  for (model::Index c = 0; c < model.components.size(); ++c)
+    if (model::is_predicted(model, c))
+      for (const model::PredictedState& one : predicted_states(model, c))
+        out[model.components[c].name].push_back(
+            {{"at_s", temporal::to_seconds(one.at)}, {"state", to_text(model, one.state, {})}});
+  return out;
+}
+
 }  // namespace
 
 ExitCode check(const Files& files, const Output& output) {
@@ -177,15 +255,13 @@ ExitCode check(const Files& files, const Output& output) {
 }
 
 ExitCode plan(const Files& files, const PlanOptions& options, const Output& output) {
-  const auto model = load(files, output);
+  auto model = load(files, output);
   if (!model) return faulty;
-  const search::Resolution resolution = resolve(*model, options);
-  const auto plan = solve(resolution, output);
-  if (!plan) return unsolved;
-  temporal::ExecutionWindows windows(plan->point_count, temporal::all_constraints(*plan),
+  const auto [code, plan, count] = solve(*model, options, output);
+  if (code != done) return code;
+  temporal::ExecutionWindows windows(plan.point_count, temporal::all_constraints(plan),
                                      temporal::Duration{0});
   windows.settle();
-  const auto& count = resolution.search->count();
   if (output.json) {
     nlohmann::ordered_json json = {{"verdict", "solved"}};
     json["statistics"] = {{"expanded", count.expanded},
@@ -193,20 +269,22 @@ ExitCode plan(const Files& files, const PlanOptions& options, const Output& outp
                           {"refused", count.refused},
                           {"repeated", count.repeated},
                           {"bytes", count.bytes}};
-    json.update(json_of(*plan, windows));
+    json.update(json_of(plan, windows));
+    if (auto predicted = predicted_json(*model); !predicted.empty()) json["predicted"] = std::move(predicted);
     output.out << json.dump(2) << '\n';
     return done;
   }
-  print_tree(*plan, windows, "", output.out);
-  for (const auto& decision : plan->decisions) {
+  print_tree(plan, windows, "", output.out);
+  print_predicted(*model, output.out);
+  for (const auto& decision : plan.decisions) {
     output.out << "decision " << decision.id << " before "
                << seconds(windows.window(decision.decide_before).upper) << " s:";
     for (const auto& choice : decision.choices) output.out << ' ' << choice.name;
     for (const auto& value : decision.admissible) output.out << ' ' << value;
     output.out << '\n';
   }
-  output.errors << plan->activities.size() << " activities"
-                << ", " << counted(plan->tokens.size(), "value") << "; expanded " << count.expanded
+  output.errors << plan.activities.size() << " activities"
+                << ", " << counted(plan.tokens.size(), "value") << "; expanded " << count.expanded
                 << ", evaluated " << count.evaluated << ", refused " << count.refused << ", repeated "
                 << count.repeated << ", bytes " << count.bytes << '\n';
   return done;
@@ -214,11 +292,11 @@ ExitCode plan(const Files& files, const PlanOptions& options, const Output& outp
 
 ExitCode matrix(const Files& files, const PlanOptions& options, const std::string& form,
                 const Output& output) {
-  const auto model = load(files, output);
+  auto model = load(files, output);
   if (!model) return faulty;
-  const auto plan = solve(resolve(*model, options), output);
-  if (!plan) return unsolved;
-  const extraction::Matrix matrix = extraction::matrix_of(*plan);
+  const Solved solved = solve(*model, options, output);
+  if (solved.code != done) return solved.code;
+  const extraction::Matrix matrix = extraction::matrix_of(solved.plan);
   if (form == "json") {
     output.out << to_json(matrix) << '\n';
   } else {

@@ -12,7 +12,7 @@
 namespace roci::planner::timeline_htn::cli {
 
 /// Are the exit codes (docs/exit-codes.md).
-enum ExitCode { done = 0, faulty = 1, wrong_use = 2, unsolved = 3 };
+enum ExitCode { done = 0, faulty = 1, wrong_use = 2, unsolved = 3, out_of_memory = 5, no_functions = 6 };
 
 /// Takes what people and what programs read.
 struct Output {
@@ -23,11 +23,14 @@ struct Output {
 
 using Files = std::vector<std::filesystem::path>;
 
+inline constexpr std::size_t kDefaultMegabytes = 1024;
+
 struct PlanOptions {
   std::vector<search::Resolver> resolvers{search::Resolver{}};  ///< that search side by side
   std::size_t threads = 1;
-  std::uint64_t work = 10'000'000;  ///< steps of the search
-  std::size_t memory_bytes = 1U << 30U;
+  std::uint64_t work = 10'000'000;            ///< steps of the search
+  std::size_t megabytes = kDefaultMegabytes;  ///< that the searches keep together; 0: no bound
+  std::filesystem::path functions;            ///< values of external functions; empty: there are none
 };
 
 /// Prints all that is wrong with a model, each fault with its place and remedy, or in one line what it holds.

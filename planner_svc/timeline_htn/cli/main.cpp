@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 #include <iostream>
 #include <map>
+#include <new>
 #include <string>
 
 #include "planner_svc/timeline_htn/cli/commands.hpp"
@@ -14,8 +15,7 @@ int run_command_line(int argc, char** argv) {
   app.require_subcommand(1);
   app.footer(
       "How a model is written: docs/timeline-format.md. Exit codes: 0 done, 1 the model has errors, 2 wrong "
-      "use, 3 no "
-      "plan.");
+      "use, 3 no plan, 5 the memory is spent, 6 an external function has no usable value.");
   Files files;
   bool json = false;
   PlanOptions options;
@@ -40,7 +40,15 @@ int run_command_line(int argc, char** argv) {
         ->check(CLI::IsMember(search::resolver_names()));
     out->add_option("--threads", options.threads, "on which they run; the plan is the same for any number")
         ->check(CLI::Range(1, 64));
-    out->add_option("--work", options.work, "steps of the search, at most");
+    out->add_option("--work", options.work, "steps of the search, at most")->capture_default_str();
+    out->add_option("--memory", options.megabytes,
+                    "limit in MiB of what the searches keep, together; 0: none")
+        ->check(CLI::Range(std::size_t{0}, std::size_t{1} << 24U))
+        ->capture_default_str();
+    out->add_option(
+           "--functions", options.functions,
+           "values of external functions, which services give in a mission: (traverse_time a b) 12.5")
+        ->check(CLI::ExistingFile);
   };
   CLI::App* check_command = command("check", "Tells all that is wrong with it, with file, line and remedy");
   check_command->add_flag("--json", json, "as one JSON object");
@@ -59,9 +67,14 @@ int run_command_line(int argc, char** argv) {
   if (!resolvers.empty()) options.resolvers.clear();
   for (const std::string& name : resolvers) options.resolvers.push_back(*search::resolver_named(name));
   const Output output{std::cout, std::cerr, json};
-  if (*check_command) return check(files, output);
-  if (*plan_command) return plan(files, options, output);
-  return matrix(files, options, form, output);
+  try {
+    if (*check_command) return check(files, output);
+    if (*plan_command) return plan(files, options, output);
+    return matrix(files, options, form, output);
+  } catch (const std::bad_alloc&) {
+    std::cerr << "out_of_memory: the machine has no more; set --memory below what there is\n";
+    return out_of_memory;
+  }
 }
 
 }  // namespace

@@ -14,6 +14,7 @@ inline constexpr std::size_t kMostTypes = 64;
 inline constexpr std::size_t kMostObjects = 10'000;
 inline constexpr std::size_t kMostTables = 64;         ///< relations, and likewise numbers
 inline constexpr std::size_t kMostRows = 200'000;      ///< of all relations and numbers together
+inline constexpr std::size_t kMostAsked = 20'000;      ///< numbers of one table that a service is asked for
 inline constexpr std::size_t kMostComponents = 64;     ///< a set of them is one word of 64 bits
 inline constexpr std::size_t kMostStates = 64;         ///< of one component
 inline constexpr std::size_t kMostTransitions = 1000;  ///< of one component
@@ -23,6 +24,7 @@ inline constexpr std::size_t kMostBehaviours = 1000;
 inline constexpr std::size_t kMostInList =
     64;  ///< of one state or behaviour: tests, needs, subgoals, constraints, …
 inline constexpr std::size_t kMostGoals = 1000;
+inline constexpr std::size_t kMostPredicted = 1000;     ///< values of one component
 inline constexpr std::size_t kLongestExpression = 100;  ///< numbers, tables and operators in it
 inline constexpr std::size_t kLongestText = 1000;  ///< bytes of a name or of a line of the small languages
 inline constexpr temporal::Duration kLongestDuration = temporal::seconds(1e9);  ///< 31 years

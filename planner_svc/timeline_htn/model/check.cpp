@@ -129,10 +129,15 @@ void check_behaviours(Complaints& complaints) {
   check_time(complaints);
 }
 
+// Of a state whose numbers nobody was asked for yet nothing is said.
 bool exists(const Model& model, const Pattern& pattern) {
   std::vector<Index> objects;
   for (const Term& term : pattern.terms) objects.push_back(term.index);
   const State& state = model.components[pattern.component].states[pattern.state];
+  std::set<AskedNumber> asked;
+  add_asked(model, state, objects, asked);
+  const auto open = [&](const AskedNumber& one) { return !model.numbers[one.table].asked->given; };
+  if (std::ranges::any_of(asked, open)) return true;
   return bounds(model, state, objects) &&
          std::ranges::all_of(state.where, [&](const Test& test) { return holds(model, test, objects); });
 }
@@ -192,6 +197,7 @@ void check_problem(Complaints& complaints) {
     complaints.about(Part::goal, i);
     check_goal(complaints, problem, i);
   }
+  check_predictions(complaints);
 }
 
 }  // namespace

@@ -10,11 +10,11 @@
 namespace roci::planner::timeline_htn::model {
 
 /// Says which list of the model a fault lies in.
-enum class Part { model, component, state, behaviour, problem, goal };
+enum class Part { model, component, state, behaviour, problem, prediction, goal };
 
 struct Fault {
   Part part = Part::model;
-  Index index = 0;       ///< in the list of that part; of a state: of its component
+  Index index = 0;       ///< in the list of that part; of a state or prediction: of its component
   Index state = 0;       ///< of a state
   bool warning = false;  ///< the model can be used, but it can hardly be meant so
   std::string what;

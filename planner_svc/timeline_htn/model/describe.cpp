@@ -13,6 +13,11 @@ std::string application(const Component& component, const State& state, std::siz
 
 }  // namespace
 
+bool is_predicted(const Model& model, Index component) {
+  return model.problem && component < model.problem->predicted.size() &&
+         model.problem->predicted[component].has_value();
+}
+
 std::string to_text(const Model& model, const GroundState& state) {
   const Component& component = model.components[state.component];
   return application(component, component.states[state.state], state.objects.size(),

@@ -106,6 +106,26 @@ std::optional<Bounds> bounds(const Model& model, const State& state, std::span<c
   return Bounds{*shortest, *longest};
 }
 
+void add_asked(const Model& model, const Expression& expression, std::span<const Index> objects,
+               std::set<AskedNumber>& out) {
+  for (const ExpressionNode& node : expression)
+    if (node.op == Operator::table && model.numbers[node.table].asked)
+      out.insert({node.table, row_of(node.terms, objects)});
+}
+
+void add_asked(const Model& model, const Test& test, std::span<const Index> objects,
+               std::set<AskedNumber>& out) {
+  add_asked(model, test.left, objects, out);
+  add_asked(model, test.right, objects, out);
+}
+
+void add_asked(const Model& model, const State& state, std::span<const Index> objects,
+               std::set<AskedNumber>& out) {
+  add_asked(model, state.shortest, objects, out);
+  add_asked(model, state.longest, objects, out);
+  for (const Test& test : state.where) add_asked(model, test, objects, out);
+}
+
 std::string text_of(const Model& model, const Argument& argument, std::span<const Index> objects) {
   if (!argument.term) return argument.text;
   const std::string& object = model.objects[object_of(*argument.term, objects)].name;

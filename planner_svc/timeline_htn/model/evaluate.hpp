@@ -1,7 +1,9 @@
 // Expressions and static tests with objects in place of variables.
 #pragma once
 
+#include <compare>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 
@@ -27,6 +29,20 @@ struct Bounds {
 /// Returns them, or nothing where a bound has no number, is negative or too long, or the longest is below the shortest: there is no
 /// such state then.
 std::optional<Bounds> bounds(const Model& model, const State& state, std::span<const Index> objects);
+
+/// Is a number that a service is asked for.
+struct AskedNumber {
+  Index table = 0;
+  std::vector<Index> row;
+  friend auto operator<=>(const AskedNumber&, const AskedNumber&) = default;
+};
+/// Adds those that an expression, a test or a state with its tests reads with these objects.
+void add_asked(const Model& model, const Expression& expression, std::span<const Index> objects,
+               std::set<AskedNumber>& out);
+void add_asked(const Model& model, const Test& test, std::span<const Index> objects,
+               std::set<AskedNumber>& out);
+void add_asked(const Model& model, const State& state, std::span<const Index> objects,
+               std::set<AskedNumber>& out);
 
 /// Returns the object that a term stands for.
 inline Index object_of(const Term& term, std::span<const Index> objects) {

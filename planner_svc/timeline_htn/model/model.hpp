@@ -48,10 +48,20 @@ struct Relation {
   std::string value{};
   friend bool operator==(const Relation&, const Relation&) = default;
 };
+/// Says that a service gives the numbers of a table: it is asked before each search, exactly (R35, R36).
+struct AskedNumbers {
+  std::string module;
+  std::string function;
+  std::optional<Index> rows_of;  ///< a relation, of whose rows alone; nothing: of all objects of the types
+  std::string place;             ///< where it says so: "file:line:column"
+  bool given = false;            ///< whether the numbers have come
+  friend bool operator==(const AskedNumbers&, const AskedNumbers&) = default;
+};
 struct NumberTable {
   std::string name;
   std::vector<Index> types;
   std::map<std::vector<Index>, double> rows;  ///< all finite
+  std::optional<AskedNumbers> asked{};        ///< then its rows come with the call to plan
   friend bool operator==(const NumberTable&, const NumberTable&) = default;
 };
 
@@ -260,12 +270,22 @@ struct Goal {
   friend bool operator==(const Goal&, const Goal&) = default;
 };
 
-/// Is P: where every component begins, and what is asked for.
+/// Is a state that a component is known to come to, whatever the plan: of objects alone.
+struct PredictedState {
+  temporal::Duration at{0};  ///< counts from the origin
+  Pattern state;
+  friend bool operator==(const PredictedState&, const PredictedState&) = default;
+};
+
+/// Is P: where every component begins, what is known to come, and what is asked for.
 struct Problem {
   temporal::Duration horizon = temporal::no_bound;  ///< H; counts from the origin
   std::vector<std::optional<Pattern>> initial;      ///< by component; objects alone
   std::vector<Goal> goals;
   bool goals_changed = false;
+  /// By component: nothing where the plan brings its states about; else it stays as it begins until the first of these, and no plan
+  /// changes it. They stand in order of time. Components behind the last one have nothing.
+  std::vector<std::optional<std::vector<PredictedState>>> predicted{};
   friend bool operator==(const Problem&, const Problem&) = default;
 };
 
@@ -289,6 +309,9 @@ struct GroundState {
   friend bool operator==(const GroundState&, const GroundState&) = default;
   friend auto operator<=>(const GroundState&, const GroundState&) = default;
 };
+
+/// Returns whether the problem of the model, if it has one, tells all that the component will do.
+bool is_predicted(const Model& model, Index component);
 
 /// Prints "component.state(a, b)".
 std::string to_text(const Model& model, const GroundState& state);

@@ -18,13 +18,10 @@ std::size_t rows_of(const model::Model& model) {
   return out;
 }
 
-// Declares a table where the entry has its arguments.
+// Declares a table where the entry has its arguments; `own` is the key that tables of this kind alone have.
 void declare(const std::string& name, const Entry& entry, Names& names, Vocabulary& vocabulary,
-             bool observable, const std::function<void(std::vector<Index>)>& add) {
-  if (observable)
-    entry.allow_only({"arguments", "symmetric", "rows", "observed"});
-  else
-    entry.allow_only({"arguments", "symmetric", "rows"});
+             std::string_view own, const std::function<void(std::vector<Index>)>& add) {
+  entry.allow_only({"arguments", "symmetric", "rows", own});
   const auto arguments = entry.find("arguments");
   if (!arguments) return;
   std::vector<Index> types;
@@ -69,6 +66,21 @@ void each_row(const Entry& entry, const std::vector<Index>& types, std::size_t m
   }
 }
 
+// Who is asked for the numbers of the table that was declared last.
+model::AskedNumbers asked_numbers(const Entry& entry, const Vocabulary& vocabulary) {
+  entry.allow_only({"module", "function", "rows_of"});
+  const model::NumberTable& table = vocabulary.model.numbers.back();
+  model::AskedNumbers out{
+      entry.at("module").text(), entry.text_or("function", table.name), {}, entry.place()};
+  if (const auto relation = entry.find("rows_of")) {
+    out.rows_of = vocabulary.relations.index(relation->text(), *relation);
+    if (vocabulary.model.relations[*out.rows_of].types != table.types)
+      relation->fail("relation '" + relation->text() + "' is of other types than '" + table.name +
+                     "'; name one with the same arguments, or none");
+  }
+  return out;
+}
+
 }  // namespace
 
 void read_types(const Entry& section, Vocabulary& vocabulary) {
@@ -99,7 +111,7 @@ void read_objects(const Entry& section, Vocabulary& vocabulary) {
 
 void declare_relations(const Entry& section, Vocabulary& vocabulary) {
   section.each_field([&](const std::string& name, const Entry& entry) {
-    declare(name, entry, vocabulary.relations, vocabulary, true, [&](std::vector<Index> types) {
+    declare(name, entry, vocabulary.relations, vocabulary, "observed", [&](std::vector<Index> types) {
       model::Relation& relation = vocabulary.model.relations.emplace_back();
       relation.name = name;
       relation.types = std::move(types);
@@ -114,8 +126,10 @@ void declare_relations(const Entry& section, Vocabulary& vocabulary) {
 
 void declare_numbers(const Entry& section, Vocabulary& vocabulary) {
   section.each_field([&](const std::string& name, const Entry& entry) {
-    declare(name, entry, vocabulary.numbers, vocabulary, false, [&](std::vector<Index> types) {
+    declare(name, entry, vocabulary.numbers, vocabulary, "asked", [&](std::vector<Index> types) {
       vocabulary.model.numbers.push_back({name, std::move(types), {}});
+      if (const auto asked = entry.find("asked"))
+        vocabulary.model.numbers.back().asked = asked_numbers(*asked, vocabulary);
     });
   });
 }
@@ -136,6 +150,13 @@ void read_numbers(const Entry& section, Vocabulary& vocabulary) {
   section.each_field([&](const std::string& name, const Entry& entry) {
     const Index index = vocabulary.numbers.index(name, entry);
     const std::vector<Index> types = numbers[index].types;
+    if (numbers[index].asked) {
+      for (const char* key : {"rows", "symmetric"})
+        if (const auto own = entry.find(key))
+          own->fail("a service is asked for the numbers of '" + name + "', at " +
+                    numbers[index].asked->place + "; take this out, or 'asked'");
+      return;
+    }
     each_row(entry, types, 1, vocabulary,
              [&](const std::vector<Index>& objects, const std::vector<Entry>& cells) {
                const double number = cells.back().number();

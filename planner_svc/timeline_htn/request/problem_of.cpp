@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <optional>
 
+#include "planner_svc/timeline_htn/model/bounds.hpp"
 #include "planner_svc/timeline_htn/reading/load.hpp"
 
 namespace roci::planner::timeline_htn::request {
@@ -157,6 +158,45 @@ void put_states(const Request& request, Model& model, std::vector<Misfit>& misfi
   }
 }
 
+bool is_observed_by(const model::Component& component, const std::string& timeline) {
+  return std::ranges::any_of(component.states, [&](const model::State& state) {
+    return state.observed && state.observed->timeline == timeline;
+  });
+}
+
+// What the request knows of the timeline to come takes the place of what the model's problem says.
+void put_predictions(const Request& request, Model& model, Index c, std::vector<Misfit>& misfits) {
+  const model::Component& component = model.components[c];
+  const auto is_observed = [](const model::State& state) { return state.observed.has_value(); };
+  if (std::ranges::none_of(component.states, is_observed)) return;  // its times count from the origin
+  std::vector<const engine::PredictedValue*> ahead;
+  for (const engine::PredictedValue& one : request.predictions)
+    if (is_observed_by(component, one.timeline) && one.at > request.origin &&
+        one.at - request.origin < model.problem->horizon)
+      ahead.push_back(&one);
+  std::ranges::stable_sort(ahead, {}, [](const auto* one) { return one->at; });
+  std::vector<model::PredictedState>& values = *model.problem->predicted[c];
+  values.clear();
+  std::optional<Pattern> holds = model.problem->initial[c];
+  for (std::size_t i = 0; i < ahead.size(); ++i) {
+    const engine::PredictedValue* one = ahead[i];
+    if (i + 1 < ahead.size() && ahead[i + 1]->at == one->at)
+      continue;  // a window that opens as another closes
+    const auto state = state_of(model, c, one->timeline, one->value);
+    if (!state)
+      return misfits.push_back({"", "'" + one->timeline + " = " + temporal::to_text(one->value) +
+                                        "' is predicted, and is no value of the states of '" +
+                                        component.name + "'; say 'observed' of one"});
+    if (holds == state) continue;
+    if (values.size() == model::kMostPredicted)
+      return misfits.push_back({"", "more than " + std::to_string(model::kMostPredicted) + " changes of '" +
+                                        component.name +
+                                        "' are predicted before the horizon; set 'horizon_s' earlier"});
+    values.push_back({one->at - request.origin, *state});
+    holds = state;
+  }
+}
+
 Duration from_origin(const Request& request, temporal::Time time) {
   return temporal::bounded(time) ? std::max(Duration{0}, time - request.origin) : time;
 }
@@ -210,6 +250,8 @@ std::vector<Misfit> put_request(const Request& request, Model& model) {
   }
   model.problem->goals.clear();
   put_states(request, model, misfits);
+  for (Index c = 0; c < model.problem->predicted.size(); ++c)
+    if (model.problem->predicted[c]) put_predictions(request, model, c, misfits);
   for (const engine::Goal& goal : request.goals) put_goal(request, goal, model, misfits);
   return misfits;
 }

@@ -149,6 +149,9 @@ void Ground::measure_footprints() {
       footprints_[c] = all;
     }
   }
+  for (Index c = 0; c < count; ++c)
+    if (model::is_predicted(*model_, c))
+      for (ComponentSet& set : footprints_) set &= ~(ComponentSet{1} << c);
 }
 
 const State& Ground::definition(StateId state) const {

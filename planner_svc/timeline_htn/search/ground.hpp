@@ -1,6 +1,7 @@
 // States with objects in place of parameters, made when they are first met, and what may follow them.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <span>
@@ -16,6 +17,8 @@ namespace roci::planner::timeline_htn::search {
 using model::Index;
 using StateId = std::uint32_t;  ///< number of a ground state, over all components
 inline constexpr Index kNone = ~Index{0};
+/// Values by which a timeline goes on by itself, without a command, for a condition that looks at it.
+inline constexpr std::size_t kStepsByItself = 3;
 
 /// Is a set of components: the bit of each by its number.
 using ComponentSet = std::uint64_t;
@@ -55,7 +58,7 @@ class Ground {
   std::vector<StateId> reachable(StateId from);
   /// Returns whether a state is one of the pattern's, where variables that are kNone fit all.
   bool fits(StateId state, const model::Pattern& pattern, std::span<const Index> bound) const;
-  /// Returns the components that bringing about some state of this one may touch or look at.
+  /// Returns the components that bringing about some state of this one may touch or look at; what no plan changes is none of them.
   ComponentSet footprint(Index component) const { return footprints_[component]; }
   /// Returns every way to give variables from `from` on an object of their type so that the tests hold.
   std::vector<std::vector<Index>> bindings(const std::vector<model::Variable>& variables,

@@ -35,8 +35,12 @@ PartialPlan::PartialPlan(Ground& ground, Bindings& bindings, const std::vector<I
     const StateId state = ground.find(ground_of(*initial, {}));
     tokens_.push_back({state, temporal::origin_point, network_.add_point(), kNone, kNone});
     tokens_.back().mends = ground.at(state).kind == StateKind::simple;
+    begun_.push_back(current_.back());
     static_cast<void>(constrain(0, tokens_.back().end, Duration{0}, ground.at(state).bounds.longest));
+    const auto component = static_cast<Index>(begun_.size() - 1);
+    if (model::is_predicted(ground.model(), component)) add_predicted(component);
   }
+  windows_.assign(current_.size(), kNone);
   add_mending();
   const auto mended = static_cast<Index>(activities_.size());
   std::vector<Index> activity_of(problem.goals.size(), kNone);
@@ -68,6 +72,29 @@ PartialPlan::PartialPlan(Ground& ground, Bindings& bindings, const std::vector<I
   }
 }
 
+// What is known to come, at its times: what needs it finds it there.
+void PartialPlan::add_predicted(Index component) {
+  const Problem& problem = *ground_->model().problem;
+  const auto end_at = [&](Duration at) { sound_ = constrain(0, tokens_.back().end, at, at) && sound_; };
+  for (const model::PredictedState& value : *problem.predicted[component]) {
+    if (value.at >= problem.horizon) break;
+    end_at(value.at);
+    const StateId state = ground_->find(ground_of(value.state, {}));
+    const TimePoint start = tokens_.back().end;
+    tokens_.push_back({state, start, network_.add_point(), kNone, current_[component]});
+    current_[component] = static_cast<Index>(tokens_.size() - 1);
+    const model::Bounds& bounds = ground_->at(state).bounds;
+    sound_ = constrain(start, tokens_.back().end, bounds.shortest, bounds.longest) && sound_;
+  }
+  end_at(problem.horizon);
+}
+
+std::vector<Index> PartialPlan::predicted(Index component) const {
+  std::vector<Index> out;
+  for (Index token = begun_[component]; token <= current_[component]; ++token) out.push_back(token);
+  return out;
+}
+
 // Behaviours that are triggered by where the timelines begin, or by a change of goals: one activity for each cause.
 void PartialPlan::add_mending() {
   const model::Model& model = ground_->model();
@@ -82,7 +109,7 @@ void PartialPlan::add_mending() {
     if (behaviour.on_goal_change && problem.goals_changed)
       add(model.components.size(), std::vector<Index>(behaviour.variables.size(), kNone));
     for (const Pattern& trigger : behaviour.triggers) {
-      const GroundState& begun = ground_->at(current_state(trigger.component)).state;
+      const GroundState& begun = ground_->at(tokens_[begun_[trigger.component]].state).state;
       if (begun.state != trigger.state) continue;
       std::vector<Index> bound(behaviour.variables.size(), kNone);
       bool fits = true;
@@ -151,6 +178,8 @@ Index& PartialPlan::slot(Field field, Index index) {
       return activities_[index].path_from;
     case Field::ended:
       return tokens_[index].ended;
+    case Field::window:
+      return windows_[index];
     default:
       return urgent_;
   }
@@ -345,12 +374,11 @@ bool PartialPlan::go_on(Index activity, StateId state) {
 // Lets the timeline go on by itself, through states without a command, until the condition holds.
 bool PartialPlan::follow(Index component, const Pattern& pattern, const std::vector<Index>& objects,
                          Index activity) {
-  constexpr std::size_t kMostSteps = 3;
   std::vector<StateId> path;
   StateId state = current_state(component);
   if (ground_->at(state).kind != StateKind::simple) return false;
   while (!ground_->fits(state, pattern, objects)) {
-    if (path.size() == kMostSteps) return false;
+    if (path.size() == kStepsByItself) return false;
     StateId chosen = kNone;
     for (const StateId after : ground_->next(state)) {
       const bool by_itself =
@@ -372,6 +400,10 @@ bool PartialPlan::conditions_hold(Index activity, const Behaviour& behaviour,
   for (Index i = 0; i < behaviour.conditions.size(); ++i) {
     const model::Precondition& condition = behaviour.conditions[i];
     const Index component = condition.state.component;
+    if (model::is_predicted(ground_->model(), component)) {
+      push({UrgentKind::condition, activity, i, kNone, 0, kNone});
+      continue;
+    }
     const Index own = activities_[activity].token;
     const bool before_itself = own != kNone && ground_->at(tokens_[own].state).state.component == component;
     const Index looked_at = before_itself ? tokens_[own].before : current_[component];
@@ -400,7 +432,8 @@ bool PartialPlan::meet_need(Index needing, Index need, Index other) {
     case NeedKind::at_start:
       return constrain(met.start, one.start, Duration{0}) && constrain(one.start, met.end, Duration{0});
     case NeedKind::met_by:
-      if (met.ended == 0) set(Field::ended, other, 1);
+      if (met.ended == 0 && !model::is_predicted(ground_->model(), ground_->at(met.state).state.component))
+        set(Field::ended, other, 1);
       return constrain(met.end, one.start, Duration{0}, Duration{0});
   }
   return false;
@@ -415,6 +448,24 @@ bool PartialPlan::path_to_need(StateId state) {
   if (state != item.goal) push(item);
   if (!step_between(state, cause, parent, false)) return false;
   return state != item.goal || meet_need(item.subject, item.need, current_[component]);
+}
+
+// Lets what needs a predicted state, or is to begin in one, do so at the time of this one.
+bool PartialPlan::take_window(const Step& step) {
+  const bool condition = step.kind == StepKind::condition_here;
+  pop();
+  set(Field::window, ground_->at(tokens_[step.first].state).state.component, step.first);
+  if (!condition) {
+    if (meet_need(step.subject, step.second, step.first)) return true;
+    return refuse({Obstacle::Kind::window, goal_of(tokens_[step.subject].cause), tokens_[step.subject].state,
+                   kNone, step.second, kNone});
+  }
+  const Activity& one = activities_[step.subject];
+  if (constrain(tokens_[step.first].start, one.start, Duration{0}) &&
+      constrain(one.start, tokens_[step.first].end, Duration{0}))
+    return true;
+  return refuse(
+      {Obstacle::Kind::window, goal_of(step.subject), one.state, one.behaviour, step.second, kNone});
 }
 
 bool PartialPlan::take(const Step& step) {
@@ -444,7 +495,11 @@ bool PartialPlan::apply(const Step& step) {
       set(Field::parts, step.subject, 1);
       push({UrgentKind::decompose, step.subject, 0, kNone, 0, kNone});
       return true;
+    case StepKind::condition_here:
+      return take_window(step);
     case StepKind::need_here:
+      if (model::is_predicted(ground_->model(), ground_->at(tokens_[step.first].state).state.component))
+        return take_window(step);
       pop();
       return meet_need(step.subject, step.second, step.first);
     case StepKind::need_path:

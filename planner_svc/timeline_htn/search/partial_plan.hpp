@@ -48,11 +48,11 @@ struct Activity {
 };
 
 /// Says what must be settled before anything else, or nothing.
-enum class UrgentKind : std::uint8_t { decompose, need, path_to_need };
+enum class UrgentKind : std::uint8_t { decompose, need, path_to_need, condition };
 struct Urgent {
   UrgentKind kind = UrgentKind::decompose;
-  Index subject = 0;  ///< activity, or token that needs
-  Index need = 0;
+  Index subject = 0;     ///< activity, or token that needs
+  Index need = 0;        ///< or condition of the activity's behaviour, of a timeline that is predicted
   StateId goal = kNone;  ///< of a path
   Index path_from = 0;
   Index below = kNone;  ///< the next urgent one
@@ -67,13 +67,14 @@ enum class StepKind : std::uint8_t {
   need_here,
   need_path,
   path_to_need,
-  rest
+  rest,
+  condition_here
 };
 struct Step {
   StepKind kind = StepKind::attach;
   Index subject = 0;  ///< activity, token or component
   Index first = 0;    ///< state, behaviour or token
-  Index second = 0;   ///< binding or need
+  Index second = 0;   ///< binding, need or condition
   friend bool operator==(const Step&, const Step&) = default;
 };
 
@@ -87,7 +88,8 @@ struct Obstacle {
     no_path,
     no_state,
     recursion,
-    need
+    need,
+    window  ///< no time is left at which a timeline is predicted to be as it must
   } kind = Kind::none;
   Index goal = kNone;
   StateId state = kNone;  ///< that was wanted
@@ -133,7 +135,10 @@ class PartialPlan {
 
   const std::vector<Token>& tokens() const { return tokens_; }
   const std::vector<Activity>& activities() const { return activities_; }
+  /// Returns the last value of a timeline.
   Index current(Index component) const { return current_[component]; }
+  /// Returns the first one.
+  Index begun(Index component) const { return begun_[component]; }
   StateId current_state(Index component) const { return tokens_[current_[component]].state; }
   /// Returns the activities that are still to be placed.
   const std::vector<Index>& open() const { return open_; }
@@ -142,6 +147,12 @@ class PartialPlan {
     return item.below == kNone ? nullptr : &urgents_[item.below];
   }
   const Network& network() const { return network_; }
+  /// Returns the values of a timeline that is predicted, in order.
+  std::vector<Index> predicted(Index component) const;
+  /// Returns the one of them that something was last put into, or kNone.
+  Index last_window(Index component) const { return windows_[component]; }
+  /// Returns the goal of the problem for which there is the activity, or kNone.
+  Index goal_of(Index activity) const;
   /// Returns the behaviours that a triggered activity chooses among: behaviour and binding.
   const std::vector<std::pair<Index, Index>>& mending(Index activity) const { return mending_[activity]; }
   std::size_t mending_count() const { return mending_.size(); }
@@ -177,7 +188,8 @@ class PartialPlan {
     urgent,
     opened,
     closed,
-    ended
+    ended,
+    window
   };
   struct Change {
     Field field;
@@ -215,7 +227,8 @@ class PartialPlan {
   bool path_to_need(StateId state);
   bool refuse(Obstacle obstacle);
   bool apply(const Step& step);
-  Index goal_of(Index activity) const;
+  bool take_window(const Step& step);
+  void add_predicted(Index component);
   void add_mending();
 
   Ground* ground_;
@@ -223,7 +236,7 @@ class PartialPlan {
   Network network_;
   std::vector<Token> tokens_;
   std::vector<Activity> activities_;
-  std::vector<Index> current_;
+  std::vector<Index> begun_, current_, windows_;
   std::vector<Index> open_;
   std::vector<Urgent> urgents_;
   Index urgent_ = kNone;

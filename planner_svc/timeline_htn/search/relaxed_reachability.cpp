@@ -16,7 +16,6 @@ using model::Behaviour, model::NeedKind, model::Pattern, model::StateKind;
 namespace {
 
 constexpr int kMostRounds = 8;
-constexpr int kStepsByItself = 3;  // that a timeline goes on by itself where a condition looks at it
 constexpr std::size_t kNamed = 3;  // states that a reason names
 
 class Relaxation {
@@ -38,7 +37,12 @@ class Relaxation {
   std::optional<NeverReached> run() {
     const PartialPlan plan(ground_, bindings_, goal_order(*model_.problem));
     if (!plan.sound()) return std::nullopt;
-    for (Index c = 0; c < model_.components.size(); ++c) timelines_[c].initial = plan.current_state(c);
+    for (Index c = 0; c < model_.components.size(); ++c) {
+      timelines_[c].initial = plan.tokens()[plan.begun(c)].state;
+      timelines_[c].predicted = model::is_predicted(model_, c);
+      if (timelines_[c].predicted)
+        for (const Index token : plan.predicted(c)) timelines_[c].known.push_back(plan.tokens()[token].state);
+    }
     for (Index cause = 0; cause < plan.mending_count(); ++cause) {
       tasks_.push_back({kNone, 0, {}, true, false});
       task_ways_.clear();
@@ -82,6 +86,8 @@ class Relaxation {
   };
   struct Timeline {
     StateId initial = kNone;
+    bool predicted = false;
+    std::vector<StateId> known;  // that are predicted, with the initial one
     std::optional<TransitionGraph> graph;
     std::vector<StateId> reached;
     std::vector<Wish> wishes;
@@ -121,6 +127,8 @@ class Relaxation {
       timeline.wishes.clear();
       timeline.changes = 0;
       mark(timeline.initial).reached = true;
+      for (const StateId state : timeline.known)
+        if (!std::exchange(mark(state).reached, true)) timeline.reached.push_back(state);
     }
     for (const model::Goal& goal : model_.problem->goals) ask_for(ground_.find(ground_of(goal.state, {})), 0);
   }
@@ -130,7 +138,7 @@ class Relaxation {
     for (bool more = true; more;) {
       more = false;
       for (Timeline& timeline : timelines_)
-        for (std::size_t i = 0; i < timeline.reached.size(); ++i) {
+        for (std::size_t i = 0; !timeline.predicted && i < timeline.reached.size(); ++i) {
           if (steps_++ % 1024 == 0 && (bytes() > most_bytes_ || cancelled_())) return false;
           more = go_on(timeline, timeline.reached[i]) || more;
         }
@@ -157,6 +165,7 @@ class Relaxation {
 
   void wish(StateId state, bool by_complex, ComponentSet above) {
     Timeline& timeline = timelines_[component(state)];
+    if (timeline.predicted) return;
     const Index part = graph(component(state)).part(state);
     if (part == kNone) return;
     const bool itself = kind(state) != StateKind::resting || is_left_for_another(state);
@@ -205,7 +214,7 @@ class Relaxation {
   bool go_on_by_itself(StateId from) {
     bool more = false;
     std::vector<StateId> last{from};
-    for (int step = 0; step < kStepsByItself; ++step) {
+    for (std::size_t step = 0; step < kStepsByItself; ++step) {
       std::vector<StateId> now;
       for (const StateId one : last)
         for (const StateId after : std::vector<StateId>(ground_.next(one)))

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "planner_svc/timeline_htn/search/decompositions.hpp"
+#include "planner_svc/timeline_htn/search/earliest_times.hpp"
 
 namespace roci::planner::timeline_htn::search {
 
@@ -56,6 +57,9 @@ Search::Search(const Model& model, const Resolver& resolver)
   if (const auto obstacle = out_of_reach()) {
     state_ = Outcome::exhausted;
     obstacle_ = *obstacle;
+  } else if (auto late = too_late(ground_, successors_, *plan_)) {
+    state_ = Outcome::exhausted;
+    never_reached_ = {late->goal, std::move(late->reason)};
   }
 }
 
@@ -91,6 +95,7 @@ void Search::start() {
   path_.assign(1, 0);
   marks_.assign(1, plan_->mark());
   seen_.clear();
+  windows_.clear();
   open_.clear();
   open_[0].push_back(0);
   if (plan_->sound()) return;
@@ -133,6 +138,8 @@ std::uint64_t Search::signature() const {
     const bool running = token.activity != kNone && !plan.complete(token.activity);
     out = join(out, std::uint64_t{token.state} * 4 + (running ? 1 : 0) + (token.ended != 0 ? 2 : 0));
   }
+  for (Index c = 0; c < ground_.model().components.size(); ++c)
+    if (plan.last_window(c) != kNone) out = join(out, plan.last_window(c));
   std::uint64_t open = 0;
   for (const Index index : plan.open()) {
     const Activity& activity = plan.activities()[index];
@@ -148,8 +155,9 @@ std::uint64_t Search::signature() const {
   out = join(out, open);
   for (const Urgent* item = plan.urgent(); item != nullptr; item = plan.below(*item)) {
     out = join(out, join(static_cast<std::uint64_t>(item->kind), join(item->need, item->goal)));
-    const StateId subject = item->kind == UrgentKind::decompose ? plan.activities()[item->subject].state
-                                                                : plan.tokens()[item->subject].state;
+    const bool activity = item->kind == UrgentKind::decompose || item->kind == UrgentKind::condition;
+    const StateId subject =
+        activity ? plan.activities()[item->subject].state : plan.tokens()[item->subject].state;
     out = join(out, subject);
   }
   return out;
@@ -170,7 +178,15 @@ bool Search::is_hopeless(std::size_t memory_bytes, const std::function<bool()>& 
 // Whether the passes so far have left out something.
 bool Search::may_pass_again() const {
   return (pass_ < kPassWithDetours && successors_.left_out()) ||
-         (pass_ < kPassThatDropsNothing && count_.repeated > 0 && plan_->refusals_by_time() > 0);
+         (pass_ < kPassThatDropsNothing && count_.repeated > 0 &&
+          (plan_->refusals_by_time() > 0 || successors_.passed_by()));
+}
+
+bool Search::is_later_for_nothing(const Node& node) const {
+  if (pass_ == kPassThatDropsNothing || node.parent == kNone) return false;
+  const auto windows = windows_.find(node.parent);
+  return windows != windows_.end() && node.step.first != windows->second.first &&
+         plan_->refusals_by_time() == windows->second.refusals;
 }
 
 // Starts again with what the pass before has left out.
@@ -187,6 +203,18 @@ void Search::note(const Obstacle& obstacle) {
   if (obstacle_.kind != Obstacle::Kind::none && (pass_ > 0 || depth <= farthest_)) return;
   farthest_ = depth;
   obstacle_ = obstacle;
+  waited_for_.reset();
+  for (Index c = 0; c < ground_.model().components.size(); ++c) {
+    if (plan_->last_window(c) == kNone) continue;
+    const Token& window = plan_->tokens()[plan_->last_window(c)];
+    const Duration from = plan_->network().earliest(window.start);
+    if (!waited_for_ || waited_for_->second < from) waited_for_ = {window.state, from};
+  }
+}
+
+// Whether a token of the plan is of a timeline that is predicted.
+bool Search::is_predicted(Index token) const {
+  return model::is_predicted(ground_.model(), ground_.at(plan_->tokens()[token].state).state.component);
 }
 
 void Search::expand(Index node) {
@@ -195,6 +223,10 @@ void Search::expand(Index node) {
   if (estimate == kNone) return;
   successors_.of(*plan_, steps_);
   if (steps_.empty()) note(successors_.obstacle());
+  const bool window = steps_.size() > 1 &&
+                      (steps_.front().kind == StepKind::condition_here ||
+                       (steps_.front().kind == StepKind::need_here && is_predicted(steps_.front().first)));
+  if (window) windows_[node] = {steps_.front().first, plan_->refusals_by_time()};
   const Index depth = nodes_[node].depth + 1;
   auto& bucket = open_[estimate];
   for (auto step = steps_.rbegin(); step != steps_.rend(); ++step) {
@@ -222,6 +254,10 @@ Outcome Search::run(std::uint64_t evaluations, std::size_t memory_bytes,
     const Index node = open_.begin()->second.back();
     open_.begin()->second.pop_back();
     ++count_.evaluated;
+    if (is_later_for_nothing(nodes_[node])) {
+      ++count_.repeated;
+      continue;
+    }
     if (!go_to(node)) {
       ++count_.refused;
       note(plan_->obstacle());
@@ -248,11 +284,49 @@ Outcome Search::run(std::uint64_t evaluations, std::size_t memory_bytes,
 }
 
 std::size_t Search::bytes() const {
-  return nodes_.capacity() * sizeof(Node) + seen_.size() * 40 + plan_->bytes() + ground_.bytes() +
-         bindings_.bytes() + marks_.capacity() * sizeof(PartialPlan::Mark);
+  return nodes_.capacity() * sizeof(Node) + seen_.size() * 40 + windows_.size() * 48 + plan_->bytes() +
+         ground_.bytes() + bindings_.bytes() + marks_.capacity() * sizeof(PartialPlan::Mark);
 }
 
 Index Search::blocking_goal() const { return never_reached_ ? never_reached_->goal : obstacle_.goal; }
+
+// Names what must hold of the predicted timeline, and the first times at which it does.
+std::string Search::reason_of_window(const Obstacle& one) const {
+  constexpr int kNamed = 3;
+  const Model& model = ground_.model();
+  const std::string wanted = one.state == kNone ? "the plan" : ground_.text(one.state);
+  std::string out;
+  const model::Pattern* needed = nullptr;
+  bool negated = false;
+  std::vector<model::Variable> scope;
+  if (one.behaviour != kNone) {
+    const model::Behaviour& behaviour = model.behaviours[one.behaviour];
+    needed = &behaviour.conditions[one.condition].state;
+    negated = behaviour.conditions[one.condition].negated;
+    scope = behaviour.variables;
+    out = "behaviour '" + behaviour.name + "' for " + wanted + " asks for ";
+  } else {
+    const model::State& state = ground_.definition(one.state);
+    needed = &state.needs[one.condition].state;
+    scope = state.parameters;
+    scope.insert(scope.end(), state.free.begin(), state.free.end());
+    out = wanted + " needs ";
+  }
+  out += (negated ? "not " : "") + to_text(model, *needed, scope);
+  std::string times;
+  int named = 0;
+  const std::vector<Index> open(scope.size(), kNone);
+  for (const Index token : plan_->predicted(needed->component)) {
+    const Token& value = plan_->tokens()[token];
+    if (ground_.fits(value.state, *needed, open) == negated) continue;
+    if (++named > kNamed) break;
+    times += (named == 1 ? "" : ", ") + temporal::to_text(plan_->network().earliest(value.start)) + " to " +
+             temporal::to_text(plan_->network().earliest(value.end));
+  }
+  if (named == 0) return out + ", and that is predicted for no time";
+  return out + ", and no time at which that is predicted is left for it: " + times +
+         (named > kNamed ? ", …" : "");
+}
 
 std::string Search::reason() const {
   if (never_reached_) return never_reached_->reason;
@@ -265,7 +339,12 @@ std::string Search::reason() const {
       return "no plan was found";
     case Obstacle::Kind::time:
       return "time does not permit " + wanted() + (one.behaviour == kNone ? "" : " by " + behaviour()) +
-             ": its window, the constraints round it or the horizon are too narrow";
+             ": its window, the constraints round it or the horizon are too narrow" +
+             (waited_for_ && waited_for_->second > Duration{0}
+                  ? ", and " + ground_.text(waited_for_->first) +
+                        ", which is needed before, is predicted from " +
+                        temporal::to_text(waited_for_->second) + " on"
+                  : "");
     case Obstacle::Kind::condition: {
       const auto& condition = model.behaviours[one.behaviour].conditions[one.condition];
       return behaviour() + " for " + wanted() + " asks for " + (condition.negated ? "not " : "") +
@@ -291,6 +370,8 @@ std::string Search::reason() const {
       return wanted() + " needs " + to_text(model, state.needs[one.condition].state, scope) +
              ", and the timeline, in " + ground_.text(one.at) + ", cannot come there";
     }
+    case Obstacle::Kind::window:
+      return reason_of_window(one);
   }
   return "no plan was found";
 }

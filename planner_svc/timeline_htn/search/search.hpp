@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <unordered_map>
 #include <unordered_set>
 #include <vector>
 
@@ -94,11 +95,15 @@ class Search {
   // Whether it is proved that no pass finds a plan. It is looked at once.
   bool is_hopeless(std::size_t memory_bytes, const std::function<bool()>& cancelled);
   bool may_pass_again() const;
+  // Whether a step takes a later time of a predicted state, and time was in the way of nothing behind the first one.
+  bool is_later_for_nothing(const Node& node) const;
   void next_pass();
   bool go_to(Index node);
   void expand(Index node);
+  bool is_predicted(Index token) const;
   std::uint64_t signature() const;
   void note(const Obstacle& obstacle);
+  std::string reason_of_window(const Obstacle& obstacle) const;
   std::size_t bytes() const;
 
   Ground ground_;
@@ -110,10 +115,17 @@ class Search {
   std::vector<Node> nodes_;
   std::map<std::uint32_t, std::vector<Index>> open_;
   std::unordered_set<std::uint64_t> seen_;
-  std::vector<Index> path_;  // nodes from the root to where the plan is
+  struct Windows {
+    Index first;  // token
+    std::size_t refusals;
+  };
+  std::unordered_map<Index, Windows> windows_;  // by the node that chooses among them
+  std::vector<Index> path_;                     // nodes from the root to where the plan is
   std::vector<PartialPlan::Mark> marks_;
   std::vector<Step> steps_;
   Obstacle obstacle_;
+  std::optional<std::pair<StateId, Duration>>
+      waited_for_;  // the last predicted state that was, and its start
   std::optional<NeverReached> never_reached_;
   bool looked_at_ = false;  // whether the relaxed reachability was
   std::size_t farthest_ = 0;

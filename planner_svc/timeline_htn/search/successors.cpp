@@ -150,8 +150,11 @@ void Successors::place(const PartialPlan& plan, Index index, std::vector<Step>& 
   if (activity.nested) return out.push_back({StepKind::nest, index, 0, 0});
   const Index component = plan.component(index);
   if (plan.current_state(component) == activity.state &&
-      ground_->at(activity.state).kind == StateKind::resting)
-    return out.push_back({StepKind::attach, index, 0, 0});
+      ground_->at(activity.state).kind == StateKind::resting) {
+    out.push_back({StepKind::attach, index, 0, 0});
+    // One that is to end may do so before it is wanted, and come again.
+    if (plan.tokens()[plan.current(component)].ended == 0) return;
+  }
   const Index path_from =
       activity.path_from == kNone ? static_cast<Index>(plan.tokens().size()) : activity.path_from;
   const auto states = towards(plan, component, activity.state, path_from, true);
@@ -164,6 +167,7 @@ void Successors::place(const PartialPlan& plan, Index index, std::vector<Step>& 
 void Successors::urgent(const PartialPlan& plan, const Urgent& item, std::vector<Step>& out) {
   if (item.kind == UrgentKind::decompose) return decompositions(plan, item.subject, out);
   if (item.kind == UrgentKind::need) return needs(plan, item, out);
+  if (item.kind == UrgentKind::condition) return conditions(plan, item, out);
   const Index component = ground_->at(item.goal).state.component;
   for (const StateId state : towards(plan, component, item.goal, item.path_from, false))
     out.push_back({StepKind::path_to_need, item.subject, state, item.need});
@@ -215,6 +219,17 @@ void Successors::needs(const PartialPlan& plan, const Urgent& item, std::vector<
   const model::Need& need = ground_->definition(plan.tokens()[item.subject].state).needs[item.need];
   const std::vector<Index> variables = plan.need_variables(item.subject);
   const Index component = need.state.component;
+  if (model::is_predicted(ground_->model(), component)) {
+    const Token& needing = plan.tokens()[item.subject];
+    const TimePoint until = need.kind == model::NeedKind::during ? needing.end : needing.start;
+    for (const Index token : still_to_come(plan, component, until))
+      if (ground_->fits(plan.tokens()[token].state, need.state, variables))
+        out.push_back({StepKind::need_here, item.subject, token, item.need});
+    if (out.empty())
+      obstacle_ = {
+          Obstacle::Kind::window, plan.goal_of(needing.cause), needing.state, kNone, item.need, kNone};
+    return;
+  }
   const auto here = [&](Index token) {
     if (ground_->fits(plan.tokens()[token].state, need.state, variables))
       out.push_back({StepKind::need_here, item.subject, token, item.need});
@@ -240,6 +255,34 @@ void Successors::needs(const PartialPlan& plan, const Urgent& item, std::vector<
   if (out.empty())
     obstacle_ = {Obstacle::Kind::need,         kNone, plan.tokens()[item.subject].state, kNone, item.need,
                  plan.current_state(component)};
+}
+
+// The values of a predicted timeline that end no earlier than the point.
+std::vector<Index> Successors::still_to_come(const PartialPlan& plan, Index component, TimePoint point) {
+  std::vector<Index> out = plan.predicted(component);
+  const auto first = std::ranges::find_if(out, [&](Index token) {
+    return plan.network().earliest(plan.tokens()[token].end) >= plan.network().earliest(point);
+  });
+  passed_by_ = passed_by_ || first != out.begin();
+  out.erase(out.begin(), first);
+  return out;
+}
+
+void Successors::conditions(const PartialPlan& plan, const Urgent& item, std::vector<Step>& out) {
+  const Activity& activity = plan.activities()[item.subject];
+  const model::Precondition& condition =
+      ground_->model().behaviours[activity.behaviour].conditions[item.need];
+  for (const Index token : still_to_come(plan, condition.state.component, activity.start))
+    if (ground_->fits(plan.tokens()[token].state, condition.state, bindings_->at(activity.binding)) !=
+        condition.negated)
+      out.push_back({StepKind::condition_here, item.subject, token, item.need});
+  if (out.empty())
+    obstacle_ = {Obstacle::Kind::window,
+                 plan.goal_of(item.subject),
+                 activity.state,
+                 activity.behaviour,
+                 item.need,
+                 kNone};
 }
 
 void Successors::rest(const PartialPlan& plan, std::vector<Step>& out) {

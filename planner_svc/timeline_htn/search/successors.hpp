@@ -34,6 +34,8 @@ class Successors {
   void permit_detours() { detours_ = true; }
   /// Returns whether there were longer ways that were not given.
   bool left_out() const { return left_out_; }
+  /// Returns whether predicted states were not given since they end before what needs them can begin, by the times of the plan.
+  bool passed_by() const { return passed_by_; }
   /// Tells why there was no step.
   const Obstacle& obstacle() const { return obstacle_; }
   /// Returns the behaviours for a complex state, the first to be tried first.
@@ -50,6 +52,8 @@ class Successors {
   bool recursion_can_end(const PartialPlan& plan, Index activity, Index behaviour,
                          const std::vector<Index>& objects);
   void needs(const PartialPlan& plan, const Urgent& item, std::vector<Step>& out);
+  void conditions(const PartialPlan& plan, const Urgent& item, std::vector<Step>& out);
+  std::vector<Index> still_to_come(const PartialPlan& plan, Index component, TimePoint point);
   void place(const PartialPlan& plan, Index activity, std::vector<Step>& out);
   void rest(const PartialPlan& plan, std::vector<Step>& out);
   std::vector<Index> candidates(const PartialPlan& plan);
@@ -64,6 +68,7 @@ class Successors {
   std::unique_ptr<Decompositions> below_;
   bool detours_ = false;
   bool left_out_ = false;
+  bool passed_by_ = false;
   Obstacle obstacle_;
 };
 

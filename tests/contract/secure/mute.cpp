@@ -1,9 +1,12 @@
 // Loaded before a process it keeps back every datagram that the process sends for as long as the file $ROCI_MUTE exists. The process hears all others meanwhile.
-#include <dlfcn.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
 #include <cstdlib>
+
+#include "tests/contract/secure/interpose.hpp"
+
+using roci::contract::next;
 
 namespace {
 
@@ -16,11 +19,6 @@ std::size_t size_of(const msghdr& message) {
   std::size_t size = 0;
   for (std::size_t i = 0; i < message.msg_iovlen; ++i) size += message.msg_iov[i].iov_len;
   return size;
-}
-
-template <class Function>
-Function* next(const char* name) {
-  return reinterpret_cast<Function*>(dlsym(RTLD_NEXT, name));
 }
 
 }  // namespace

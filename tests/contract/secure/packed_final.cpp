@@ -1,6 +1,5 @@
 // Loaded before a process it puts three encrypted submessages (SEC_PREFIX, SEC_BODY, SEC_POSTFIX) before the last message of each handshake that
 // the process sends, as Cyclone DDS does when an acknowledgement is due in the same moment. Nobody can decrypt them yet.
-#include <dlfcn.h>
 #include <sys/socket.h>
 #include <sys/uio.h>
 
@@ -8,6 +7,10 @@
 #include <cstdint>
 #include <string_view>
 #include <vector>
+
+#include "tests/contract/secure/interpose.hpp"
+
+using roci::contract::next;
 
 namespace {
 
@@ -35,11 +38,6 @@ Bytes packed(const Bytes& message) {
   add_submessage(out, 0x32, postfix);
   out.insert(out.end(), begin, message.end());
   return out;
-}
-
-template <class Function>
-Function* next(const char* name) {
-  return reinterpret_cast<Function*>(dlsym(RTLD_NEXT, name));
 }
 
 }  // namespace

@@ -105,11 +105,15 @@ class OnceUnheard : public Secure {
     environment.emplace_back("ROCI_MUTE=" + silence_.string());
     return ChildProcess(peer_command(vendor, role, domain_.id()), environment);
   }
-  // Until `other` has given it up.
-  void mute_until_lost(ChildProcess& other) const {
+  // `other` of the two hears nothing of the mute one until it has given it up.
+  void expect_heard_after_silence(ChildProcess& writer, ChildProcess& reader, ChildProcess& other) const {
+    writer.send("write ground photo 1");
+    ASSERT_TRUE(reader.wait_for("goal ground photo 1", kPatience));
     std::ofstream{silence_};
     ASSERT_TRUE(other.wait_for("matched 0", kPatience));
     std::filesystem::remove(silence_);
+    writer.send("write ground again 1");
+    EXPECT_TRUE(reader.wait_for("goal ground again 1", 2 * kPatience));
   }
   const std::filesystem::path silence_ = ring_.path() + "/silence";
 };
@@ -117,21 +121,13 @@ class OnceUnheard : public Secure {
 TEST_P(OnceUnheard, AWriterIsHeardAgain) {
   ChildProcess reader = certified(GetParam().reader, "goal-reader", "exec_svc");
   ChildProcess writer = mutable_one(GetParam().writer, "goal-writer", "roci");
-  writer.send("write ground photo 1");
-  ASSERT_TRUE(reader.wait_for("goal ground photo 1", kPatience));
-  mute_until_lost(reader);
-  writer.send("write ground again 1");
-  EXPECT_TRUE(reader.wait_for("goal ground again 1", 2 * kPatience));
+  expect_heard_after_silence(writer, reader, reader);
 }
 
 TEST_P(OnceUnheard, AReaderHearsAgain) {
   ChildProcess reader = mutable_one(GetParam().reader, "goal-reader", "exec_svc");
   ChildProcess writer = certified(GetParam().writer, "goal-writer", "roci");
-  writer.send("write ground photo 1");
-  ASSERT_TRUE(reader.wait_for("goal ground photo 1", kPatience));
-  mute_until_lost(writer);
-  writer.send("write ground again 1");
-  EXPECT_TRUE(reader.wait_for("goal ground again 1", 2 * kPatience));
+  expect_heard_after_silence(writer, reader, writer);
 }
 
 INSTANTIATE_TEST_SUITE_P(Vendors, OnceUnheard, kEveryNetworkPairing, pairing_name);

@@ -107,6 +107,58 @@ TEST_F(ReactorTest, AnOwnerLostDuringThePauseMakesTheRobotSafeAndItsReturnResume
   EXPECT_EQ(reactor.counts().achieved, 2U);
 }
 
+// A network falls apart and heals: the planner is heard before the robot is, and proves with the picture of before that the goal is out
+// of reach.
+TEST_F(ReactorTest, NoGoalEndsWhileAServiceThatObservesIsAway) {
+  bool away = true;
+  planner = [&](const PlanRequest& call) {
+    return away ? reply(Verdict::unsolvable, "never reached") : image_every_goal(call);
+  };
+  run(10, robot_and({}));
+  ReactorInputs lost;
+  lost.losses = {{"sim_svc", "cut off", true}};
+  lost.goals = {photo("a"), photo("b", GoalClass::opportunistic)};
+  run(30, std::move(lost));
+  EXPECT_THAT(trace, Contains("plan.retry"));
+  EXPECT_THAT(trace, Not(Contains(::testing::AnyOf("goal.failed", "goal.dropped"))));
+  away = false;
+  ReactorInputs back;
+  back.arrivals = {"sim_svc"};
+  run(1000, std::move(back));
+  EXPECT_EQ(reactor.counts().achieved, 2U);
+}
+
+// Its calls run out as those of a planner that fails; a proof of a call that was made with everybody there counts at once.
+TEST_F(ReactorTest, AProofIsBelievedInTheEndAndAtOnceOnceEverybodyIsBack) {
+  planner = [](const PlanRequest&) { return reply(Verdict::unsolvable, "never reached"); };
+  run(10, robot_and({}));
+  ReactorInputs lost;
+  lost.losses = {{"sim_svc", "cut off", true}};
+  lost.goals = {photo("a")};
+  run(2000, std::move(lost));
+  EXPECT_EQ(std::ranges::count(trace, "plan.retry"), mission.executive.call_retries);
+  EXPECT_EQ(std::ranges::count(trace, "goal.failed"), 1);
+  trace.clear();
+  ReactorInputs back;
+  back.arrivals = {"sim_svc"};
+  back.goals = {photo("b")};
+  run(3000, std::move(back));
+  EXPECT_THAT(trace, Not(Contains("plan.retry")));
+  EXPECT_EQ(std::ranges::count(trace, "goal.failed"), 1);
+}
+
+// Nor is one that observes nothing missed.
+TEST_F(ReactorTest, AServiceThatObservesNothingMakesNoProofDoubtful) {
+  planner = [](const PlanRequest&) { return reply(Verdict::unsolvable, "never reached"); };
+  run(10, robot_and({}));
+  ReactorInputs lost;
+  lost.losses = {{"science_svc", "killed", false}};
+  lost.goals = {photo("a")};
+  run(20, std::move(lost));
+  EXPECT_THAT(trace, Not(Contains("plan.retry")));
+  EXPECT_EQ(std::ranges::count(trace, "goal.failed"), 1);
+}
+
 // Of a robot that is not there nothing is ever observed.
 TEST_F(ReactorTest, AWishForAPlanTellsOnceForWhomItWaits) {
   ReactorInputs wish;

@@ -10,9 +10,9 @@ namespace {
 using executive::StepStatus;
 using temporal::ActivityState;
 using temporal::FlexiblePlan;
-using testing::HasSubstr;
-using testing::IsEmpty;
-using testing::UnorderedElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::UnorderedElementsAre;
 
 // traverse {cycle {look, drive}, other}, report {send}, and a step of no level.
 FlexiblePlan levels() {

@@ -105,6 +105,43 @@ TEST(TimelineMission, ProblemsHoldStatePredictionsGoalsAndObjects) {
   EXPECT_EQ(problem.goals[0].closes, seconds(500));
   ASSERT_EQ(problem.objects.size(), 2U) << "a dynamic one that no state names stays away";
   EXPECT_EQ(problem.objects[1].name, "hole-1");
+  ASSERT_EQ(problem.objects[1].properties.size(), 2U) << "of the robot that {robot} stands for";
+  EXPECT_EQ(problem.objects[1].properties[0].value, "2.000000");
+}
+
+TEST(TimelineMission, ATimelineOfAnObjectNeedsTheRobotThatItNames) {
+  TimelineMissionFile file;
+  const mission::ExecutiveRole of_all{"", false, {"mole", "vole"}, true};
+  EXPECT_THAT(file.fault("{robot}.drill", "mole.drill", of_all),
+              HasSubstr("mission.yaml:5:51: '{robot}' stands here, and this executive has no robot"));
+}
+
+// Where the executive has no robot of its own, it is that of the goal.
+TEST(TimelineMission, AGoalsObjectIsSeenOnTheTimelinesOfItsRobot) {
+  TimelineMissionFile file;
+  std::string text = testing::kTimelineMission;
+  const auto change = [&](const std::string& from, const std::string& to) {
+    text.replace(text.find(from), from.size(), to);
+  };
+  change("{robot}.depth", "mole.depth");
+  change("{robot}.drill", "mole.drill");
+  change("{robot}.lamp", "mole.lamp");
+  change("planner.{robot}", "planner");
+  change(R"(objects: [{name: "{name}"}])",
+         R"(objects: [{name: "{name}", properties: {low: {timeline: "{robot}.depth"}}}])");
+  file.write(text);
+  const MissionModel mission = file.read({"", false, {"mole", "vole"}, true});
+  beliefs::Beliefs beliefs(mission);
+  beliefs.observe("vole.depth", 7.0);
+  goals::GoalSet goals(mission);
+  goals::GoalRequest wish = hole("a");
+  wish.robot = "vole";
+  goals.submit(wish, seconds(0));
+  const Problem problem =
+      write_problem(mission, beliefs, goals, "mine-1", seconds(60), seconds(60), problem::Reserves::kept, {});
+  ASSERT_FALSE(problem.objects.empty());
+  ASSERT_EQ(problem.objects[0].properties.size(), 1U);
+  EXPECT_EQ(problem.objects[0].properties[0].value, "7.000000");
 }
 
 // The engine could not say in which state the drill is, had it not heard of the hole that the state names.

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 
 #include "ground_console/cli/map/run_folder.hpp"
@@ -205,6 +206,27 @@ TEST_F(RunFolder, IsDrawnWithAPanelForEachRobotAndARowForEachTimeline) {
   EXPECT_EQ(count(svg, "soil of scout"), 2U);
   EXPECT_EQ(count(svg, "rock of scout"), 1U) << "the primary has not heard of it";
   EXPECT_EQ(count(svg, "<g"), count(svg, "</g>"));
+}
+
+// Names of places stand above the ways, and beside one another where places are close.
+TEST_F(RunFolder, NamesOfPlacesCanBeReadWhereWaysAndPlacesMeet) {
+  RunPicture out = picture();
+  out.robots.clear();
+  out.map->known.clear();
+  out.map->places = {{"near", {10, 15}}, {"nearer", {10.05, 15}}, {"nearest", {10.1, 15}}};
+  out.map->driven["scout"] = {{5, 15}, {15, 15}};
+  const std::string svg = to_svg(out);
+  const std::size_t names = svg.find(">near<");
+  ASSERT_NE(names, std::string::npos);
+  EXPECT_GT(names, svg.rfind("stroke-width=\"3\""));
+  std::set<std::string> anchors;
+  for (const char* name : {">near<", ">nearer<", ">nearest<"}) {
+    const std::size_t end = svg.find(name), begin = svg.rfind("<text", end);
+    const std::size_t anchor = svg.find("text-anchor=\"", begin);
+    anchors.insert(anchor < end ? svg.substr(anchor + 13, svg.find('"', anchor + 13) - anchor - 13)
+                                : "start");
+  }
+  EXPECT_THAT(anchors, testing::UnorderedElementsAre("middle", "start", "end"));
 }
 
 TEST_F(RunFolder, OfAMissionWithoutGroundHasTimelinesAlone) {

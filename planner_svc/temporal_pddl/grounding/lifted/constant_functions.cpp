@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <utility>
 
+#include "planner_svc/engine/function_words.hpp"
 #include "planner_svc/temporal_pddl/call/planning_failure.hpp"
 #include "planner_svc/temporal_pddl/grounding/lifted/model_failure.hpp"
 
@@ -11,73 +13,58 @@ namespace roci::planner::temporal_pddl::grounding::lifted {
 
 using call::PlanningFailure;
 using engine::FunctionCall, engine::FunctionOutcome, engine::FunctionSource, engine::FunctionUse,
-    engine::FunctionValue, engine::Provenance;
+    engine::FunctionValue;
 using task::FunctionId;
 using task::ObjectId;
 using temporal::Verdict;
 
 namespace {
 
-// Returns all tuples of the product, the last position running fastest.
-std::vector<std::vector<ObjectId>> all_tuples(const std::vector<std::vector<ObjectId>>& domains) {
-  std::vector<std::vector<ObjectId>> tuples{{}};
-  for (const auto& domain : domains) {
-    std::vector<std::vector<ObjectId>> longer;
-    longer.reserve(tuples.size() * domain.size());
-    for (const auto& tuple : tuples) {
-      for (const ObjectId object : domain) {
-        longer.push_back(tuple);
-        longer.back().push_back(object);
-      }
-    }
-    tuples = std::move(longer);
-  }
-  return tuples;
+// The tuples of a function, which are many: they are counted and made one by one, never listed.
+std::size_t number_of_tuples(const std::vector<std::vector<ObjectId>>& domains) {
+  std::size_t count = 1;
+  for (const auto& domain : domains) count *= domain.size();
+  return count;
 }
 
-std::string describe(const FunctionCall& call) { return application(call) + " of module " + call.module; }
-
-std::string remedy_for(FunctionOutcome outcome, const FunctionCall& call) {
-  switch (outcome) {
-    case FunctionOutcome::unavailable:
-    case FunctionOutcome::owner_lost:
-      return "start the service that offers module " + call.module + ", or give the values in a file";
-    case FunctionOutcome::late:
-      return "give the owner more time, or declare fewer objects";
-    case FunctionOutcome::unknown_object:
-    case FunctionOutcome::wrong_arity:
-      return "declare the function as its owner offers it, with objects that the owner knows";
-    case FunctionOutcome::not_a_number:
-      return "the owner must answer with a finite number or with 'unreachable'";
-    case FunctionOutcome::value:
-    case FunctionOutcome::unreachable:
-    case FunctionOutcome::unknown:
-      break;
+// Gives tuple `index` of the product, of which the last position runs fastest.
+void make_tuple(const std::vector<std::vector<ObjectId>>& domains, std::size_t index,
+                std::vector<ObjectId>& tuple) {
+  tuple.resize(domains.size());
+  for (std::size_t position = domains.size(); position-- > 0;) {
+    tuple[position] = domains[position][index % domains[position].size()];
+    index /= domains[position].size();
   }
-  return "";
 }
 
-std::string describe(const Provenance& said) {
-  if (said.owner.empty()) return "";
-  std::string text = "; asked " + said.owner;
-  if (!said.model_version.empty()) {
-    text += ", model " + said.model_version + ", at " +
-            std::to_string(std::chrono::duration<double>(said.time).count()) + " s";
+std::size_t external_tuples(const Symbols& symbols) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < symbols.functions(); ++i) {
+    const FunctionSymbol& symbol = symbols[FunctionId(i)];
+    if (!symbol.module.empty()) count += number_of_tuples(symbol.parameters);
   }
-  return text;
+  return count;
 }
 
-void require_usable(const FunctionCall& call, const FunctionValue& answer, const Symbols& symbols,
-                    const FunctionSymbol& symbol) {
-  if (answer.outcome == FunctionOutcome::value || answer.outcome == FunctionOutcome::unreachable ||
-      answer.outcome == FunctionOutcome::unknown)
-    return;
-  std::string message = "external function " + describe(call) + ": " + to_string(answer.outcome);
-  if (!answer.reason.empty()) message += ", " + answer.reason;
-  message += describe(answer.provenance);
-  throw ModelFailure(
-      Verdict::function_unavailable,
-      pddl::Diagnostic{symbols.domain_file(), symbol.declared, message, remedy_for(answer.outcome, call)});
+std::vector<FunctionCall> calls_of_all_tuples(const FunctionSymbol& symbol, const Symbols& symbols) {
+  const std::size_t count = number_of_tuples(symbol.parameters);
+  std::vector<FunctionCall> calls;
+  calls.reserve(count);
+  std::vector<ObjectId> tuple;
+  for (std::size_t i = 0; i < count; ++i) {
+    make_tuple(symbol.parameters, i, tuple);
+    FunctionCall& call = calls.emplace_back();
+    call.module = symbol.module;
+    call.function = symbol.name;
+    call.arguments.reserve(tuple.size());
+    for (const ObjectId object : tuple) call.arguments.push_back(symbols.name(object));
+  }
+  return calls;
+}
+
+[[noreturn]] void refuse(const FunctionUse& use, const Symbols& symbols, const FunctionSymbol& symbol) {
+  throw ModelFailure(Verdict::function_unavailable,
+                     pddl::Diagnostic{symbols.domain_file(), symbol.declared, fault_of(use), remedy_of(use)});
 }
 
 }  // namespace
@@ -108,32 +95,32 @@ ConstantFunctions::ConstantFunctions(const pddl::Problem& problem, const std::ve
 }
 
 void ConstantFunctions::load_external(FunctionSource& source, const std::function<bool()>& cancelled,
-                                      const Symbols& symbols, std::vector<FunctionUse>& used) {
+                                      const Symbols& symbols, std::vector<FunctionUse>* used) {
+  if (used)
+    used->reserve(used->size() + external_tuples(symbols));  // one that grows is there twice meanwhile
+  std::vector<ObjectId> tuple;
   for (std::size_t i = 0; i < symbols.functions(); ++i) {
     const FunctionId function(i);
     const FunctionSymbol& symbol = symbols[function];
     if (symbol.module.empty()) continue;
     external_[function] = true;
-    const auto tuples = all_tuples(symbol.parameters);
-    std::vector<FunctionCall> calls;
-    for (const auto& tuple : tuples) {
-      FunctionCall call{symbol.module, symbol.name, {}};
-      for (const ObjectId object : tuple) call.arguments.push_back(symbols.name(object));
-      calls.push_back(std::move(call));
-    }
+    auto calls = calls_of_all_tuples(symbol, symbols);
     auto answers = source.evaluate(calls, cancelled);
     if (cancelled())
       throw PlanningFailure(Verdict::cancelled, "cancelled while waiting for external functions");
     if (answers.size() != calls.size()) answers.assign(calls.size(), FunctionValue{});
+    std::optional<FunctionUse> unusable;
     for (std::size_t k = 0; k < calls.size(); ++k) {
       FunctionValue& answer = answers[k];
       if (answer.outcome == FunctionOutcome::value && !std::isfinite(answer.value)) {
         answer.outcome = FunctionOutcome::not_a_number;
       }
-      used.push_back({calls[k], answer});
-      if (answer.outcome == FunctionOutcome::value) define(function, tuples[k], answer.value);
+      make_tuple(symbol.parameters, k, tuple);
+      if (answer.outcome == FunctionOutcome::value) define(function, tuple, answer.value);
+      if (!unusable && !is_usable(answer)) unusable = FunctionUse{calls[k], answer};
+      if (used) used->push_back({std::move(calls[k]), std::move(answer)});
     }
-    for (std::size_t k = 0; k < calls.size(); ++k) require_usable(calls[k], answers[k], symbols, symbol);
+    if (unusable) refuse(*unusable, symbols, symbol);
   }
 }
 

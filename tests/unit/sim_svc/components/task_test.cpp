@@ -1,5 +1,6 @@
 #include "sim_svc/components/task.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "tests/unit/sim_svc/world_fixture.hpp"
@@ -107,6 +108,82 @@ TEST(TaskComponent, SlowedSoMuchThatItEndsWhileTheFaultLasts) {
   run.disturb(seconds(3), world::ComponentFault{"station", "drill", seconds(9000), 0.25});
   run.advance(seconds(9000));
   EXPECT_EQ(run.time_of("b"), seconds(2 + 1 + 4 * 99));
+}
+
+// The clamp gives 30 W for 50 s, and the station draws 10 W: the battery rises by 1,000 J.
+Flight charging(double gains_j, double power_w = -30, double energy_j = 50000,
+                std::optional<double> within_s = std::nullopt) {
+  TaskSettings settings = clamp();
+  settings.commands[1].gains_within_s = within_s;
+  settings.commands[1].power_w = power_w;
+  settings.commands[1].gains_j = gains_j;
+  settings.commands[1].then = StateTemplate{"ready", {}};
+  settings.commands[1].stopped = StateTemplate{"dark", {}};
+  world::WorldSetup setup = station();
+  setup.robots[0].power->start_j = energy_j;
+  setup.robots[0].components[1] = part<TaskComponent>("clamp", "task", settings);
+  Flight run(setup);
+  run.command(seconds(1), execute("c", "clamp", "charge"));
+  run.advance(seconds(100));
+  return run;
+}
+
+TEST(TaskComponent, FailsIfTheBatteryHasNotRisenByWhatWasToComeIn) {
+  const Flight enough = charging(999);
+  EXPECT_EQ(enough.stage("c"), Stage::completed);
+  EXPECT_EQ(enough.state("station.clamp"), (State{"ready", {}}));
+
+  const Flight little = charging(1001);
+  EXPECT_EQ(little.stage("c"), Stage::failed);
+  EXPECT_EQ(little.code("c"), "no-gain");
+  EXPECT_EQ(little.time_of("c"), seconds(51));
+  EXPECT_EQ(little.state("station.clamp"), (State{"dark", {}}));
+  EXPECT_EQ(little.last_ack("c")->word.reason,
+            "the battery has risen by 1000 J during charge, at least 1001 J were to come in; look at what "
+            "charges it");
+
+  const Flight none = charging(1000, 0);
+  EXPECT_EQ(none.code("c"), "no-gain");
+  EXPECT_EQ(none.last_ack("c")->word.reason,
+            "the battery has not risen, but fallen by 500 J during charge, at least 1000 J were to come in; "
+            "look at what charges it");
+}
+
+TEST(TaskComponent, MayBeLookedAtBeforeItsEndAndThenFailsAtOnce) {
+  const Flight enough = charging(199, -30, 50000, 10);
+  EXPECT_EQ(enough.stage("c"), Stage::completed);
+  EXPECT_EQ(enough.time_of("c"), seconds(51)) << "it goes on to its end";
+
+  const Flight little = charging(201, -30, 50000, 10);
+  EXPECT_EQ(little.code("c"), "no-gain");
+  EXPECT_EQ(little.time_of("c"), seconds(11));
+  EXPECT_EQ(little.state("station.clamp"), (State{"dark", {}}));
+  EXPECT_THAT(
+      little.last_ack("c")->word.reason,
+      testing::StartsWith("the battery has risen by 200 J in the first 10 s of charge, at least 201 J"));
+}
+
+TEST(TaskComponent, FailedItMayStandOtherwiseThanBrokenOff) {
+  TaskSettings settings = clamp();
+  settings.commands[1].power_w = 0;
+  settings.commands[1].gains_j = 1;
+  settings.commands[1].stopped = StateTemplate{"ready", {}};
+  settings.commands[1].failed = StateTemplate{"dark", {}};
+  world::WorldSetup setup = station();
+  setup.robots[0].components[1] = part<TaskComponent>("clamp", "task", settings);
+  Flight run(setup);
+  run.command(seconds(1), execute("a", "clamp", "charge"));
+  run.command(seconds(2), execute("s", "clamp", "stop"));
+  EXPECT_EQ(run.state("station.clamp"), (State{"ready", {}}));
+  run.command(seconds(3), execute("b", "clamp", "charge"));
+  run.advance(seconds(100));
+  EXPECT_EQ(run.code("b"), "no-gain");
+  EXPECT_EQ(run.state("station.clamp"), (State{"dark", {}}));
+}
+
+TEST(TaskComponent, AFullBatteryNeedNotRise) {
+  EXPECT_EQ(charging(1000, -30, 100000).stage("c"), Stage::completed);
+  EXPECT_EQ(charging(0, 0).stage("c"), Stage::completed) << "nothing was to come in";
 }
 
 TEST(TaskComponent, LeavesThingsInAStateOnceItIsDone) {

@@ -37,16 +37,19 @@ TEST(FasterWorld, EachNumberHasASourceOrAReason) {
   expect_same(model.at("primary"), drive_of(mission, "primary"));
   expect_same(model.at("scout"), drive_of(mission, "scout"));
   expect_same(model.at("soil_sensor"), drive_of(mission, "scout").at("soil_sensor"));
+  expect_same(model.at("soil_sensor"), drive_of(mission, "primary").at("soil_sensor"));
   expect_same(model.at("soil"), mission.at("surface").at("soils").at("trap"));
 }
 
-// The sensor judges for the vehicle that follows.
-TEST(FasterWorld, TheScoutJudgesForThePrimaryAsItIs) {
+// The scout's sensor judges for the vehicle that follows, and the primary's wheels for themselves.
+TEST(FasterWorld, BothJudgeForThePrimaryAsItIs) {
   const auto mission = mission::load_mission_file(kFaster).at("simulation");
-  const auto judged = drive_of(mission, "scout").at("soil_sensor").at("for");
   const auto primary = drive_of(mission, "primary");
-  for (const std::string key : {"weight_n", "wheels", "wheel_width_m", "wheel_diameter_m"})
-    EXPECT_EQ(judged.at(key).number(), primary.at(key).number()) << key;
+  for (const std::string robot : {"scout", "primary"})
+    for (const std::string key : {"weight_n", "wheels", "wheel_width_m", "wheel_diameter_m"})
+      EXPECT_EQ(drive_of(mission, robot).at("soil_sensor").at("for").at(key).number(),
+                primary.at(key).number())
+          << robot << ' ' << key;
 }
 
 TEST(FasterWorld, IsReadWithItsRoversAndItsTrap) {

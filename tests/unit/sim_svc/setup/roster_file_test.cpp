@@ -156,6 +156,11 @@ TEST_F(RosterFile, EveryFaultNamesItsPlaceAndARemedy) {
       {task + "numbers: {d: 0}, commands: {go: {duration_s: 1, changes: {d: {by: 1, to: 2}}}}}]}\n",
        "yaml:3:113", "either by or to"},
       {task + "numbers: {d: {resolution: 10}}}]}\n", "yaml:3:78", "at most 1"},
+      {task + "commands: {go: {duration_s: 1, gains_within_s: 1}}}]}\n", "yaml:3:99",
+       "write gains_j beside it"},
+      {task + "commands: {go: {duration_s: 1, failed: x}}}]}\n", "yaml:3:91", "write gains_j beside it"},
+      {task + "commands: {go: {duration_s: 1, gains_j: 1, gains_within_s: 2}}}]}\n", "yaml:3:111",
+       "longer than duration_s"},
   };
   for (const Case& c : cases) {
     const std::string error = error_of(c.robots);

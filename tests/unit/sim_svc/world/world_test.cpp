@@ -160,6 +160,30 @@ TEST(World, ALookForAWayAroundIsToldAsTheOwnersRepair) {
   EXPECT_THAT(word->word.reason, testing::HasSubstr("rock-1"));
 }
 
+TEST(World, AFailedDriveSaysWhyInWords) {
+  FlatSetup rocky = flat_setup();
+  rocky.ground.hidden_rocks = {{40, 20, 1}};
+  Flight blocked(rocky);
+  blocked.drive(seconds(1), "d", "there", 60, 20);
+  blocked.advance(seconds(500));
+  EXPECT_EQ(blocked.last_ack("d")->word.reason, "a rock that the map does not show lies on the way (rock-1)");
+
+  Flight lost(flat_setup());
+  lost.command(seconds(1), drive_to("d", "far", 90, 90));
+  lost.answer(seconds(2), "d", Way{});
+  EXPECT_EQ(lost.code("d"), "no-path");
+  EXPECT_EQ(lost.last_ack("d")->word.reason, "the path has no way-points");
+  EXPECT_EQ(lost.state("rover.nav"), kHere);
+
+  FlatSetup steep = flat_setup();
+  steep.ground.site = ramp_site(3);
+  Flight stuck(steep);
+  stuck.drive(seconds(1), "d", "there", 60, 20);
+  stuck.advance(seconds(2000));
+  EXPECT_EQ(stuck.code("d"), "stuck");
+  EXPECT_EQ(stuck.last_ack("d")->word.reason, "the wheels turn without progress");
+}
+
 TEST(World, AfterItsLastDetourADriveFailsAsBlocked) {
   Flight run(setup_with_rock_and_detours(2));
   run.drive(seconds(1), "d", "there", 60, 20);

@@ -4,7 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/temporal/network_distances.hpp"
 #include "planner_svc/timeline_htn/checking/timeline_checker.hpp"
+#include "tests/unit/planner_svc/timeline_htn/reading/windows.hpp"
 #include "tests/unit/planner_svc/timeline_htn/search/plans.hpp"
 
 namespace roci::planner::timeline_htn::adapter {
@@ -64,6 +66,55 @@ TEST(TimelineEngine, ItsPlansPassItsCheckerAndOthersDoNot) {
   temporal::FlexiblePlan shorter = *out.plan;
   shorter.tokens.pop_back();
   EXPECT_THAT(checker.faults({request, {}, shorter}), testing::Not(testing::IsEmpty()));
+}
+
+// The windows of a request take the place of those of the model, by the timeline that shows the component, from the origin on.
+TEST(TimelineEngine, WindowsOfTheRequestArePlannedWith) {
+  Request request;
+  request.engine = "timeline_htn";
+  request.origin = seconds(1000);
+  const std::size_t problem = reading::kWindows.find("problem:");
+  request.model = reading::kWindows.substr(0, problem) +
+                  "problem:\n  horizon_s: 3600\n  initial: {mission: idle, antenna: silent}\n"
+                  "  predicted: {ground: []}\n  goals: {}\n";
+  request.state = {{"ground.window", false}};
+  engine::Goal goal;
+  goal.issuer = "ground";
+  goal.id = "1";
+  goal.achieved = temporal::compare("mission", ConditionOp::eq, state("told", {"first"}));
+  request.goals = {goal};
+  const Answer none = answer(request);
+  EXPECT_EQ(none.verdict, Verdict::unsolvable);
+  EXPECT_THAT(none.reason, HasSubstr("antenna.sending(first) waits for ground.seen as predicted"));
+  const auto predict = [&](int at, bool open) {
+    request.predictions.push_back({"ground.window", seconds(at), open});
+    request.predictions.push_back({"air.clear", seconds(at), !open});  // nobody's
+  };
+  predict(900, true);
+  predict(950, false);
+  predict(1300, true);
+  predict(1350, false);
+  predict(1400, true);
+  predict(1450, false);
+  predict(1450, true);  // one window after the other
+  predict(1500, false);
+  const Answer out = answer(request);
+  ASSERT_TRUE(out.plan) << out.reason;
+  const temporal::NetworkDistances network(out.plan->point_count, temporal::all_constraints(*out.plan));
+  const auto sending =
+      std::ranges::find(out.plan->activities, "antenna.sending(first)", &temporal::PlanActivity::name);
+  ASSERT_NE(sending, out.plan->activities.end());
+  EXPECT_EQ(network.between(0, sending->start_point).lower, seconds(400));
+  EXPECT_EQ(network.between(0, sending->end_point).upper, seconds(500));
+  const checking::TimelineChecker checker;
+  EXPECT_THAT(checker.faults({request, {}, *out.plan}), testing::IsEmpty());
+  Request earlier = request;
+  earlier.predictions[8].at = seconds(1390);
+  EXPECT_THAT(checker.faults({earlier, {}, *out.plan}),
+              testing::Contains(HasSubstr("ground.seen is predicted from 390 s on")));
+  request.predictions[4].value = state("dim");
+  EXPECT_EQ(answer(request).verdict, Verdict::invalid_input);
+  EXPECT_THAT(answer(request).reason, HasSubstr("'ground.window = dim' is predicted, and is no value"));
 }
 
 // What is known of a graph by now closes its edges, for the engine and for its checker.

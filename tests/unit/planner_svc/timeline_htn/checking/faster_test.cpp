@@ -114,6 +114,70 @@ TEST(FasterModel, AMarkerThatIsNotSeenAndAHazardAreMendedFirst) {
   EXPECT_THAT(names(checked_plan("hazard_detected")), Contains("avoid_hazard"));
 }
 
+Index object(const model::Model& model, const std::string& name) {
+  return static_cast<Index>(std::ranges::find(model.objects, name, &model::Object::name) -
+                            model.objects.begin());
+}
+
+// Sets where a component begins; `place` where its state has one.
+void begin_with(model::Model& model, const std::string& component, const std::string& state,
+                const std::string& place) {
+  const auto index = [](const auto& list, const auto& name, auto member) {
+    return static_cast<Index>(std::ranges::find(list, name, member) - list.begin());
+  };
+  const Index c = index(model.components, component, &model::Component::name);
+  model::Pattern& initial = *model.problem->initial[c];
+  initial.state = index(model.components[c].states, state, &model::State::name);
+  initial.terms.clear();
+  if (!model.components[c].states[initial.state].parameters.empty())
+    initial.terms.push_back({object(model, place), true});
+}
+
+// What mends an error asks for the other rover in its place; in trouble are sometimes both, and the goals have changed as well. There is a plan all
+// the same, with the last communication in it.
+TEST(FasterModel, WhateverErrorsMeetThereIsAPlan) {
+  using Begin = std::pair<const char*, const char*>;
+  const model::Model trial = load("missions/faster/problem.yaml");
+  for (const char* path : {"ready", "marker_not_seen", "no_path"})
+    for (const char* primary : {"at", "blocked"})
+      for (const char* scout_path : {"ready", "no_path"})
+        for (const auto& [scout, place] :
+             {Begin{"at", "w3"}, Begin{"at", "w4"}, Begin{"hazard_detected", "w4"}, Begin{"lost", ""}})
+          for (const bool changed : {false, true}) {
+            if (changed && path == std::string("no_path")) continue;  // takes its time
+            model::Model model = trial;
+            begin_with(model, "primary_path", path, "w3");
+            begin_with(model, "primary_locomotion", primary, "w3");
+            begin_with(model, "scout_path", scout_path, *place ? place : "w4");
+            begin_with(model, "scout_locomotion", scout, place);
+            model.problem->goals_changed = changed;
+            model.problem->goals[0].state.terms = {{object(model, "w5"), true}};
+            const std::string where = std::string(path) + ' ' + primary + ' ' + scout_path + ' ' + scout +
+                                      ' ' + place + (changed ? " changed" : "");
+            search::Search search(model, {});
+            ASSERT_EQ(search.run(200'000, 0, [] { return false; }), search::Outcome::solved)
+                << where << ": " << search.reason();
+            const FlexiblePlan plan = extraction::plan_of(search, {"p1", "a", temporal::Time{0}});
+            EXPECT_THAT(faults(model, plan), IsEmpty()) << where;
+            EXPECT_GE(count(plan, "antenna.downlinking("), 1U) << where;
+          }
+}
+
+// It has found no way back to where the primary is, nor behind it: it is not called again, and the primary goes on.
+TEST(FasterModel, AScoutWithoutAWayBackIsLeftWhereItIs) {
+  for (const auto& [problem, primary] : std::vector<std::pair<std::string, std::string>>{
+           {"hazard_detected", "w0"}, {"primary_blocked", "w0"}, {"goal_change", "w1"}}) {
+    model::Model model = load("missions/faster/" + problem + ".yaml");
+    std::ranges::find(model.relations, "stand_taken", &model::Relation::name)
+        ->rows.push_back({object(model, primary)});
+    const FlexiblePlan plan = plan_for(model);
+    EXPECT_THAT(faults(model, plan), IsEmpty()) << problem;
+    EXPECT_EQ(count(plan, "scout.coming_back("), 0U) << problem;
+    EXPECT_GE(count(plan, "navigation.cycle_alone("), 1U) << problem;
+    EXPECT_EQ(count(plan, "antenna.downlinking(traverse_done)"), 1U) << problem;
+  }
+}
+
 // Where legs are closed, no route is begun that comes to one of them: behind the south way's last stand the team goes all the way back and along
 // the edge.
 TEST(FasterModel, ClosedLegsAreGoneRoundWithoutASearch) {

@@ -3,11 +3,15 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <fstream>
 #include <functional>
+#include <iterator>
+#include <set>
 
 #include "planner_svc/timeline_htn/checking/check.hpp"
 #include "tests/unit/planner_svc/timeline_htn/checking/plans.hpp"
 #include "tests/unit/planner_svc/timeline_htn/reading/texts.hpp"
+#include "tests/unit/planner_svc/timeline_htn/reading/windows.hpp"
 
 namespace roci::planner::timeline_htn::checking {
 namespace {
@@ -229,6 +233,61 @@ TEST(TimelineChecker, RefusesGoalsThatAreMissed) {
               Contains(HasSubstr("goal 'mint_watered'")));
 }
 
+// What is predicted stands in the plan as it is known, and what needs it lies inside.
+TEST(TimelineChecker, RefusesPlansThatChangeWhatIsPredicted) {
+  const Checked plan(parse(reading::kWindows));
+  EXPECT_THAT(plan.faults(), IsEmpty());
+  const auto fixed_at = [](FlexiblePlan& p, const Token& token) -> temporal::TemporalConstraint& {
+    return *std::ranges::find_if(p.constraints, [&](const auto& one) {
+      return one.from_point == 0 && one.to_point == token.start_point && one.lower == one.upper;
+    });
+  };
+  const auto nth = [](FlexiblePlan& p, int index) -> Token& {
+    for (Token& one : p.tokens)
+      if (one.timeline == "ground" && index-- == 0) return one;
+    throw std::runtime_error("no such value");
+  };
+  EXPECT_THAT(
+      plan.after([&](auto& p) { fixed_at(p, nth(p, 1)).lower = seconds(90); }),
+      Contains(HasSubstr("timeline ground: ground.seen is predicted from 100 s on, and in the plan it "
+                         "comes at 90 s to 100 s")));
+  EXPECT_THAT(
+      plan.after([&](auto& p) {
+        auto& one = fixed_at(p, nth(p, 3));
+        one.lower = one.upper = seconds(590);
+      }),
+      Contains(HasSubstr("ground.seen is predicted from 600 s on, and in the plan it comes at 590 s")));
+  EXPECT_THAT(plan.after([&](auto& p) { held(nth(p, 2)).name = "seen"; }),
+              Contains(HasSubstr("ground.hidden is predicted from 130 s on, and the plan has ground.seen")));
+  EXPECT_THAT(plan.after([&](auto& p) {
+    nth(p, 4).end_point = nth(p, 5).end_point;
+    std::erase(p.tokens, Token(nth(p, 5)));
+  }),
+              Contains(HasSubstr("ground.seen is predicted from 2000 s on, and the plan has nothing there")));
+  EXPECT_THAT(plan.under([](auto& m) { m.problem->predicted.back()->pop_back(); }),
+              Contains(HasSubstr("timeline ground: the plan has ground.seen, which nothing predicts")));
+  EXPECT_THAT(plan.under([](auto& m) { m.problem->predicted.back()->at(3).at = seconds(660); }),
+              Contains(HasSubstr("ground.hidden is predicted from 660 s on")));
+  // The sending that leaves its window by a second.
+  EXPECT_THAT(plan.after([&](auto& p) {
+    const auto start = activity(p, "antenna.sending(first)").start_point;
+    std::erase_if(p.constraints, [&](const auto& one) {
+      return std::set{one.from_point, one.to_point} == std::set{start, nth(p, 3).start_point};
+    });
+  }),
+              Contains(HasSubstr("antenna.sending(first) needs during ground.seen")));
+}
+
+TEST(TimelineChecker, RefusesConditionsOutsideOfWhatIsPredicted) {
+  const std::string asks = reading::with(
+      reading::with(reading::kWindows, ", needs: [during ground.seen]", ""),
+      "achieves: mission.telling(what), ", "achieves: mission.telling(what), conditions: [ground.seen], ");
+  const Checked plan(parse(asks));
+  EXPECT_THAT(plan.faults(), IsEmpty());
+  EXPECT_THAT(plan.under([](auto& m) { m.behaviours.front().conditions.front().negated = true; }),
+              Contains(HasSubstr("behaviour 'tell' asks for not ground.seen")));
+}
+
 TEST(TimelineChecker, WantsWhatIsTriggered) {
   model::Model stuck = load("tests/missions/greenhouse/problem.yaml");
   stuck.problem->initial[1]->state = 2;
@@ -316,6 +375,42 @@ TEST(TimelineChecker, WantsActivitiesToWaitForWhatTheyNeed) {
         temporal::compare("nav", temporal::ConditionOp::eq, temporal::state("parked", {"a", "a"}));
   }),
               Contains(HasSubstr("is false in base.at(b, b), which meets its need")));
+}
+
+// R131. The porter may hand a crate over in place of setting it down, and the plan for two crates goes on behind the first choice alone:
+// where the other one is taken for the second crate, what is seen stays as it was after the first.
+TEST(TimelineChecker, KnowsWhatADecisionLeavesAsItWasFromWhatItBringsAbout) {
+  std::ifstream in(ROCI_SOURCE_DIR "/tests/missions/porter/porter.yaml");
+  std::string text{std::istreambuf_iterator<char>(in), {}};
+  const auto edit = [&](const std::string& from, const std::string& to) {
+    ASSERT_NE(text.find(from), std::string::npos) << from;
+    text.replace(text.find(from), from.size(), to);
+  };
+  edit("    constraints: [lift before put]\n",
+       "      crane: gripper.handing_over(crate)\n"
+       "    constraints: [lift before put, lift before crane]\n"
+       "    decisions:\n      how: {resolver: ground, before: put.start, choices: {floor: {subgoals: put}, "
+       "crane: {subgoals: crane}}}\n");
+  edit("    transitions:\n      - \"empty -> lifting",
+       "      handing_over: {kind: simple, parameters: {crate: crate}, duration_s: [5, 60]}\n"
+       "    transitions:\n      - \"holding(x) -> handing_over(x)\"\n      - \"handing_over(x) -> empty\"\n"
+       "      - \"empty -> lifting");
+  edit("initial: {errand: idle}", "initial: {errand: idle, base: at(dock), gripper: empty}");
+  edit("goals: {}", "goals: {red: errand.fetched(red), blue: {state: errand.fetched(blue), after: [red]}}");
+  const Checked plan(parse(text));
+  EXPECT_THAT(plan.faults(), IsEmpty());
+  const auto leaves = [](auto& p, const std::string& name) -> temporal::Value& {
+    auto& impacts = activity(p, name).impacts;
+    return std::ranges::find(impacts, temporal::ImpactWhen::at_end, &temporal::Impact::moment)->amount;
+  };
+  EXPECT_THAT(plan.after([&](auto& p) {
+    EXPECT_EQ(temporal::to_text(leaves(p, "errand.fetching(red)")), "idle");
+    EXPECT_EQ(temporal::to_text(leaves(p, "errand.fetching(blue)")), "fetched(red)");
+  }),
+              IsEmpty());
+  EXPECT_THAT(
+      plan.after([&](auto& p) { leaves(p, "errand.fetching(blue)") = temporal::state("fetched", {"blue"}); }),
+      Contains(HasSubstr("whatever is decided, errand.fetching(blue) ends with errand.fetched(blue)")));
 }
 
 TEST(TimelineChecker, HoldsDecisionsAgainstThoseOfTheBehaviour) {

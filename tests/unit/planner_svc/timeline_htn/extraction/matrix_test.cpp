@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/temporal/execution_windows.hpp"
+#include "tests/unit/planner_svc/timeline_htn/reading/windows.hpp"
 #include "tests/unit/planner_svc/timeline_htn/search/plans.hpp"
 
 namespace roci::planner::timeline_htn::extraction {
@@ -93,6 +94,20 @@ TEST(Matrix, IsThatOfThePlanAlone) {
   const std::string svg = to_svg(matrix, "a < b");
   EXPECT_THAT(svg, HasSubstr("a &lt; b"));
   EXPECT_THAT(svg, HasSubstr("drive(wp0, wp1)"));
+}
+
+// What is predicted is a timeline like the others, in words and as a picture.
+TEST(Matrix, HoldsWhatIsPredictedAtItsTimes) {
+  const FlexiblePlan plan = *planned(model_of({reading::kWindows})).plan;
+  const Matrix matrix = matrix_of(plan);
+  const std::string text = to_text(matrix);
+  EXPECT_THAT(text, HasSubstr("0    0           0           idle             silent           hidden\n"));
+  EXPECT_THAT(text, HasSubstr("2    100         100         |                |                seen\n"));
+  EXPECT_THAT(text, HasSubstr("3    130         130         |                |                hidden\n"));
+  EXPECT_THAT(text, HasSubstr("5    600         610         |                sending(first)   |\n"));
+  const std::string picture = to_svg(matrix, "relay");
+  EXPECT_THAT(picture, HasSubstr(">ground</text>"));
+  EXPECT_THAT(picture, HasSubstr("<title>seen</title>"));
 }
 
 }  // namespace

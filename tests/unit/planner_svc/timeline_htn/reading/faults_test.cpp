@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "tests/unit/planner_svc/timeline_htn/reading/texts.hpp"
+#include "tests/unit/planner_svc/timeline_htn/reading/windows.hpp"
 
 namespace roci::planner::timeline_htn::reading {
 namespace {
@@ -53,6 +54,30 @@ TEST(TimelineModelFaults, NamesAreToldWithPlaceAndRemedy) {
       {"achieves: navigation.traverse(from, to)", "achieves: wheels.drive(from, to)",
        "'wheels.drive' is simple, and a behaviour achieves a complex state"},
   });
+}
+
+TEST(TimelineModelFaults, NumbersThatServicesAreAskedForAreToldWithPlaceAndRemedy) {
+  const std::string table = "metres: {arguments: [waypoint, waypoint], rows: [[wp0, wp1, 4], [wp1, wp0, 5]]}";
+  const auto asked = [&](const std::string& with) {
+    return Case{table, "metres: {arguments: [waypoint, waypoint], asked: {" + with, ""};
+  };
+  const auto expect = [&](const std::string& with, const std::string& says) {
+    Case one = asked(with);
+    one.says = says;
+    expect_faults({one});
+  };
+  expect("module: paths, rows_of: edge}, rows: [[wp0, wp1, 4]]}",
+         "m.yaml:8:90: a service is asked for the numbers of 'metres', at m.yaml:8:52; take this out, or "
+         "'asked'");
+  expect("module: paths}, symmetric: true}", "take this out, or 'asked'");
+  expect("function: metres}}", "'module'");
+  expect("module: paths, rows_of: edg}}", "unknown relation 'edg'; did you mean 'edge'?");
+  expect("module: paths, rows: edge}}", "unknown key 'rows'");
+  expect_faults(
+      {{table, "metres: {arguments: [waypoint], asked: {module: paths, rows_of: edge}}",
+        "relation 'edge' is of other types than 'metres'; name one with the same arguments, or none"}});
+  EXPECT_THAT(faults_of(with(kSound, table, asked("module: paths, rows_of: edge}}").to)), testing::IsEmpty())
+      << "of states whose numbers are still to come nothing is said";
 }
 
 TEST(TimelineModelFaults, NumbersAndLinesAreToldWithPlaceAndRemedy) {
@@ -113,6 +138,45 @@ TEST(TimelineModelFaults, WhatStaysOpenHasNoPropertiesYet) {
       {{"what: report}, duration_s: 10}",
         "what: report}, duration_s: 10, command: {owner: sim, command: send, arguments: {size: what.size}}}",
         "'what.size' of the command send is a property of what stays open"}});
+}
+
+TEST(TimelineModelFaults, PredictedStatesThatCannotBeAreNamed) {
+  const auto expect = [](const std::string& from, const std::string& to, const std::string& says) {
+    EXPECT_THAT(faults_of(with(kWindows, from, to)), HasSubstr(says)) << from << " -> " << to;
+  };
+  EXPECT_EQ(faults_of(kWindows), "");
+  expect("at_s: 600", "at_s: 130",
+         "m.yaml:34:16: two states of 'ground' are predicted for one time; keep one");
+  expect("at_s: 600", "at_s: 110",
+         "m.yaml:34:16: predicted states stand in order of time; put this one before that at 130 s");
+  expect("at_s: 100", "at_s: 0", "m.yaml:32:16: a predicted state comes at some time behind the origin");
+  expect("at_s: 100", "at_s: none", "a predicted state comes at some time behind the origin");
+  expect("at_s: 100", "at_s: -5", "expected seconds from the origin on");
+  expect("100, state: seen", "100, state: sen", "m.yaml:32:28: unknown state 'sen'; did you mean 'seen'?");
+  expect("100, state: seen", "100, state: hidden", "m.yaml:32:28: it is in this state already");
+  expect("130, state: hidden", "130, state: seen", "m.yaml:33:28: it is in this state already");
+  expect("100, state: seen", "100, stat: seen", "unknown key 'stat'");
+  expect("    ground:\n      - {at", "    grond:\n      - {at",
+         "unknown component 'grond'; did you mean 'ground'?");
+  expect("hidden: {kind: default,", "hidden: {kind: error,",
+         "'hidden' is a state of kind error; only default states without needs can be predicted");
+  expect("value: false}}", "value: false}, needs: [during antenna.silent]}",
+         "'hidden' is a state with needs; only default states without needs can be predicted");
+  expect(
+      "subgoals: {send: antenna.sending(what)}", "subgoals: {send: antenna.sending(what), see: ground.seen}",
+      "m.yaml:32:7: behaviour 'tell' sets 'ground' by its subgoal 'see', and a plan changes nothing that is "
+      "predicted; write a condition or a need instead");
+  expect("one: mission.told(first)", "one: ground.seen",
+         "goal 'one': it asks for a state of 'ground', which is predicted");
+  expect("[hidden <-> seen]", "[seen -> hidden]",
+         "m.yaml:32:7: no transition leads from ground.hidden to ground.seen, which is predicted behind it");
+  expect("seen: {kind: default,", "seen: {kind: default, duration_s: [40, none],",
+         "ground.seen is predicted for 30 s, and lasts 40 s at least");
+  std::string many;
+  for (int i = 1; i <= 1001; ++i)
+    many += "      - {at_s: " + std::to_string(i) + ", state: " + (i % 2 == 0 ? "hidden" : "seen") + "}\n";
+  const std::size_t from = kWindows.find("      - {at_s: 100"), to = kWindows.find("  goals: {one");
+  EXPECT_THAT(faults_of(std::string(kWindows).replace(from, to - from, many)), HasSubstr("1000"));
 }
 
 TEST(TimelineModelFaults, BehavioursThatNeverEndAreNamed) {

@@ -1,8 +1,10 @@
 // The search against brute force on small random problems (Z22): every plan that it finds is one, and where there is one it finds one.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <string>
 
+#include "planner_svc/timeline_htn/checking/check.hpp"
 #include "tests/unit/planner_svc/timeline_htn/search/oracle.hpp"
 #include "tests/unit/planner_svc/timeline_htn/search/plans.hpp"
 #include "tests/unit/planner_svc/timeline_htn/search/random_problem.hpp"
@@ -21,30 +23,61 @@ std::vector<Sequence> sequences_of(const model::Model& model, const temporal::Fl
   return out;
 }
 
-TEST(TimelineSearchAgainstBruteForce, FindsAPlanWhereThereIsOneAndNoneWhereThereIsNone) {
-  int solvable = 0, unsolvable = 0, undecided = 0, unfit = 0;
-  for (std::uint64_t seed = 0; seed < 400; ++seed) {
-    const std::string text = RandomProblem(seed).text();
-    mission::Findings findings;
-    const auto model = reading::parse_model({{"random", text}}, findings);
-    if (!model) {  // it contradicts itself, which is told before
-      ++unfit;
-      continue;
-    }
-    const Planned result = planned(*model, {}, 20'000);
-    if (result.outcome == Outcome::solved) {
-      ++solvable;
-      ASSERT_TRUE(Oracle(*model, 20).allows(sequences_of(*model, *result.plan))) << "seed " << seed << "\n"
-                                                                                 << text;
-    } else {
-      ++(result.outcome == Outcome::exhausted ? unsolvable : undecided);
-      ASSERT_FALSE(Oracle(*model, 5).solvable()) << "seed " << seed << "\n" << text << result.reason;
-    }
+/// Counts what came of random problems.
+struct Tally {
+  int solvable = 0, unsolvable = 0, undecided = 0;
+  int unfit = 0;  ///< contradict themselves, which is told before
+};
+
+void compare(std::uint64_t seed, const RandomProblem& problem, Tally& tally) {
+  const std::string text = RandomProblem(problem).text();
+  mission::Findings findings;
+  const auto model = reading::parse_model({{"random", text}}, findings);
+  if (!model) {
+    ++tally.unfit;
+    return;
   }
-  EXPECT_GT(solvable, 80);
-  EXPECT_GT(unsolvable, 40);
-  EXPECT_LT(undecided, 40);  // in so many steps, where time is tight
-  EXPECT_LT(unfit, 200);
+  const Planned result = planned(*model, {}, 20'000);
+  if (result.outcome == Outcome::solved) {
+    ++tally.solvable;
+    ASSERT_TRUE(Oracle(*model, 20).allows(sequences_of(*model, *result.plan))) << "seed " << seed << "\n"
+                                                                               << text;
+    ASSERT_THAT(checking::faults(*model, *result.plan), testing::IsEmpty()) << "seed " << seed << "\n"
+                                                                            << text;
+  } else {
+    ++(result.outcome == Outcome::exhausted ? tally.unsolvable : tally.undecided);
+    ASSERT_FALSE(Oracle(*model, 5).solvable()) << "seed " << seed << "\n" << text << result.reason;
+  }
+}
+
+TEST(TimelineSearchAgainstBruteForce, FindsAPlanWhereThereIsOneAndNoneWhereThereIsNone) {
+  Tally tally;
+  for (std::uint64_t seed = 0; seed < 400 && !HasFatalFailure(); ++seed)
+    compare(seed, RandomProblem(seed), tally);
+  EXPECT_GT(tally.solvable, 80);
+  EXPECT_GT(tally.unsolvable, 40);
+  EXPECT_LT(tally.undecided, 40);  // in so many steps, where time is tight
+  EXPECT_LT(tally.unfit, 200);
+}
+
+// What is predicted of a timeline stands at its times, and needs and conditions find it there or not at all.
+TEST(TimelineSearchAgainstBruteForce, PlansWithWhatIsPredicted) {
+  Tally tally;
+  for (std::uint64_t seed = 0; seed < 400 && !HasFatalFailure(); ++seed)
+    compare(seed, RandomProblem::with_windows(seed), tally);
+  EXPECT_GT(tally.solvable, 60);
+  EXPECT_GT(tally.unsolvable, 60);
+  EXPECT_LT(tally.undecided, 40);
+}
+
+// A default state may be brought about before the window of its goal opens, and must last until then, or come again.
+TEST(TimelineSearchAgainstBruteForce, BringsAboutBeforeTheWindowWhatRestsInIt) {
+  Tally tally;
+  for (std::uint64_t seed = 1000; seed < 1400 && !HasFatalFailure(); ++seed)
+    compare(seed, RandomProblem::with_late_goals(seed), tally);
+  EXPECT_GT(tally.solvable, 80);
+  EXPECT_GT(tally.unsolvable, 20);
+  EXPECT_LT(tally.undecided, 40);
 }
 
 }  // namespace

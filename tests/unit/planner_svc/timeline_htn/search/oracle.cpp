@@ -22,6 +22,7 @@ Duration number(const model::Model& model, const model::Expression& expression, 
 bool Oracle::solvable() {
   parts_.clear();
   bounds_.clear();
+  asked_.clear();
   for (const model::Goal& goal : model_.problem->goals) {
     const std::size_t start = 2 * parts_.size() + 1;
     parts_.push_back({goal.state.component, goal.state.state, start, start + 1});
@@ -54,7 +55,9 @@ bool Oracle::decompose(std::size_t next) {
     if (!behaviour.achieves || behaviour.achieves->component != whole.component ||
         behaviour.achieves->state != whole.state)
       continue;
-    const std::size_t parts = parts_.size(), bounds = bounds_.size();
+    const std::size_t parts = parts_.size(), bounds = bounds_.size(), asked = asked_.size();
+    for (const model::Precondition& condition : behaviour.conditions)
+      if (model::is_predicted(model_, condition.state.component)) asked_.push_back({whole.start, &condition});
     for (const model::Subgoal& subgoal : behaviour.subgoals) {
       const std::size_t start = 2 * parts_.size() + 1;
       parts_.push_back({subgoal.state.component, subgoal.state.state, start, start + 1});
@@ -71,6 +74,7 @@ bool Oracle::decompose(std::size_t next) {
     if (decompose(next + 1)) return true;
     parts_.resize(parts);
     bounds_.resize(bounds);
+    asked_.resize(asked);
   }
   return false;
 }
@@ -82,6 +86,12 @@ bool Oracle::add_sequences(std::size_t component) {
     return add_sequences(component + 1);
   }
   Sequence sequence{model_.problem->initial[component]->state};
+  if (model::is_predicted(model_, static_cast<Index>(component))) {
+    for (const model::PredictedState& value : *model_.problem->predicted[component])
+      if (value.at < model_.problem->horizon) sequence.push_back(value.state.state);
+    sequences_[component] = sequence;
+    return add_sequences(component + 1);
+  }
   return extend(component, sequence);
 }
 
@@ -158,6 +168,11 @@ bool Oracle::feasible() {
         });
       }
     }
+    if (model::is_predicted(model_, static_cast<Index>(c)))
+      for (std::size_t i = 1; i < sequences_[c].size(); ++i) {
+        const Duration at = (*model_.problem->predicted[c])[i - 1].at;
+        if (!network.add(0, start_of(c, i), at, at)) return false;
+      }
     const TimePoint last = end_of(c, sequences_[c].size() - 1);
     if (!network.add(0, last, model_.problem->horizon, model_.problem->horizon)) return false;
   }
@@ -165,6 +180,19 @@ bool Oracle::feasible() {
     if (!network.add(static_cast<TimePoint>(bound.from), static_cast<TimePoint>(bound.to), bound.lower,
                      bound.upper))
       return false;
+  for (const Asked& one : asked_)
+    choices.push_back([&](const std::function<bool(Stn)>& go_on, const Stn& so_far) {
+      const std::size_t d = one.condition->state.component;
+      const auto start = static_cast<TimePoint>(one.start);
+      for (std::size_t j = 0; j < sequences_[d].size(); ++j) {
+        if ((sequences_[d][j] == one.condition->state.state) == one.condition->negated) continue;
+        Stn next = so_far;
+        if (next.add(start_of(d, j), start, Duration{0}) && next.add(start, end_of(d, j), Duration{0}) &&
+            go_on(std::move(next)))
+          return true;
+      }
+      return false;
+    });
   std::vector<std::vector<bool>> taken;
   for (const Sequence& sequence : sequences_) taken.emplace_back(sequence.size(), false);
   for (const Part& part : parts_) {

@@ -1,5 +1,6 @@
 // Whether a small problem without parameters has a plan, by trying everything: every decomposition, every sequence of values of a
-// timeline up to a length, every value for every subgoal and need, and a temporal network for each.
+// timeline up to a length, every value for every subgoal and need, and a temporal network for each. Conditions count where they are of
+// timelines that are predicted.
 #pragma once
 
 #include <cstddef>
@@ -31,6 +32,11 @@ class Oracle {
     temporal::Duration lower, upper;
   };
 
+  struct Asked {  // a condition of a behaviour, of a timeline that is predicted
+    std::size_t start = 0;
+    const model::Precondition* condition = nullptr;
+  };
+
   bool decompose(std::size_t next);
   bool add_sequences(std::size_t component);
   bool extend(std::size_t component, Sequence& sequence);
@@ -41,6 +47,7 @@ class Oracle {
   const std::vector<Sequence>* fixed_ = nullptr;
   std::vector<Part> parts_;
   std::vector<Bound> bounds_;
+  std::vector<Asked> asked_;
   std::vector<Sequence> sequences_;
 };
 

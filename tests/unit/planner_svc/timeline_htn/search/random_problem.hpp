@@ -16,13 +16,30 @@ class RandomProblem {
  public:
   explicit RandomProblem(std::uint64_t seed, bool with_conditions = false)
       : random_(seed), with_conditions_(with_conditions) {}
+  /// Adds a component whose values are predicted, of which states need some and behaviours ask for some.
+  static RandomProblem with_windows(std::uint64_t seed) {
+    RandomProblem out(seed);
+    out.with_windows_ = true;
+    return out;
+  }
+  /// Goals are states of the primitive components alone, default ones among them, in narrow windows that open late.
+  static RandomProblem with_late_goals(std::uint64_t seed) {
+    RandomProblem out(seed);
+    out.with_late_goals_ = true;
+    return out;
+  }
 
   std::string text() {
     const std::string q = component("q", ""), p = component("p", "q");
+    const std::string window =
+        with_windows_
+            ? "  w:\n    layer: primitive\n    states: {in: {kind: default}, out: {kind: default}}\n"
+              "    transitions: [in <-> out]\n"
+            : "";
     return "domain: random\ncomponents:\n  m:\n    layer: abstract\n    states: {idle: {kind: default}, t: "
            "{kind: complex}, "
            "u: {kind: complex}}\n    transitions: [idle <-> t, idle <-> u]\n" +
-           q + p + "behaviours:\n" + behaviours() + problem();
+           q + p + window + "behaviours:\n" + behaviours() + problem();
   }
 
  private:
@@ -43,9 +60,13 @@ class RandomProblem {
       const int shortest = number(1, 4);
       out += "      " + std::string(simple) + ": {kind: simple, duration_s: [" + std::to_string(shortest) +
              ", " + std::to_string(shortest + number(0, 4)) + "]";
+      std::string needs;
       if (!other.empty() && chance(50))
-        out += ", needs: [" + one_of({"during", "at_start", "met_by"}) + " " + other + "." +
-               one_of(states_[other]) + "]";
+        needs = one_of({"during", "at_start", "met_by"}) + " " + other + "." + one_of(states_[other]);
+      if (with_windows_ && chance(60))
+        needs += (needs.empty() ? "" : ", ") + one_of({"during", "during", "at_start", "met_by"}) + " w." +
+                 one_of({"in", "in", "out"});
+      if (!needs.empty()) out += ", needs: [" + needs + "]";
       out += "}\n";
     }
     std::string transitions = "\"idle -> a\", \"b -> " + one_of({"idle", "a"}) + "\", \"a -> " +
@@ -74,6 +95,9 @@ class RandomProblem {
         out += "}\n";
         if (with_conditions_ && chance(60))
           out += "    conditions: [" + std::string(chance(30) ? "not " : "") + subgoal() + "]\n";
+        if (with_windows_ && chance(40))
+          out +=
+              "    conditions: [" + std::string(chance(30) ? "not " : "") + one_of({"w.in", "w.out"}) + "]\n";
         out += "    constraints:\n";
         for (int c = 0; c < count - 1; ++c) {
           const std::string from = "g" + std::to_string(c), to = "g" + std::to_string(c + 1);
@@ -96,20 +120,36 @@ class RandomProblem {
 
   std::string problem() {
     std::string out = "problem:\n  horizon_s: " + std::to_string(number(8, 24)) +
-                      "\n  initial: {m: idle, p: idle, q: idle}\n  goals:\n";
+                      "\n  initial: {m: idle, p: idle, q: idle" + windows() + "}\n  goals:\n";
     const int goals = number(1, 2);
     for (int g = 0; g < goals; ++g) {
-      const int opens = number(0, 4);
+      const int opens = with_late_goals_ ? number(4, 16) : number(0, 4);
       out += "    g" + std::to_string(g) +
-             ": {state: " + (chance(70) ? "m." + one_of({"t", "u"}) : subgoal()) + ", window_s: [" +
-             std::to_string(opens) + ", " + std::to_string(opens + number(0, 12)) + "]" +
+             ": {state: " + (!with_late_goals_ && chance(70) ? "m." + one_of({"t", "u"}) : subgoal()) +
+             ", window_s: [" + std::to_string(opens) + ", " +
+             std::to_string(opens + number(0, with_late_goals_ ? 2 : 12)) + "]" +
              (g > 0 && chance(50) ? ", after: [g0]" : "") + "}\n";
     }
     return out;
   }
 
+  // The state in which w begins, and those that are predicted of it.
+  std::string windows() {
+    if (!with_windows_) return "";
+    bool in = chance(50);
+    std::string out = std::string(", w: ") + (in ? "in" : "out") + "}\n  predicted: {w: [";
+    for (int at = number(1, 6); at < 24 && chance(80); at += number(1, 8)) {
+      in = !in;
+      out += std::string(out.ends_with('[') ? "" : ", ") + "{at_s: " + std::to_string(at) +
+             ", state: " + (in ? "in" : "out") + "}";
+    }
+    return out + "]";
+  }
+
   std::mt19937_64 random_;
   bool with_conditions_;
+  bool with_windows_ = false;
+  bool with_late_goals_ = false;
   std::map<std::string, std::vector<std::string>> states_;
 };
 

@@ -1,8 +1,7 @@
-#include "planner_svc/temporal_pddl/cli/table_functions.hpp"
+#include "planner_svc/engine/table_functions.hpp"
 
-namespace roci::planner::temporal_pddl::cli {
+namespace roci::planner::engine {
 
-using engine::FunctionCall, engine::FunctionOutcome, engine::FunctionValue;
 using temporal::FunctionAccuracy;
 
 std::vector<FunctionValue> TableFunctions::evaluate(std::span<const FunctionCall> calls,
@@ -34,4 +33,20 @@ FunctionValue TableFunctions::answer(const FunctionCall& call) const {
   return answer;
 }
 
-}  // namespace roci::planner::temporal_pddl::cli
+pddl::FunctionTables tables_of(std::span<const FunctionUse> uses) {
+  pddl::FunctionTables tables;
+  for (const FunctionUse& use : uses) {
+    const bool has_value = use.answer.outcome == FunctionOutcome::value;
+    if (use.answer.outcome == FunctionOutcome::unknown) {
+      tables.unknown.insert(application(use.call));
+    } else if (has_value && !use.answer.is_exact()) {
+      tables.lower_bounds.emplace(application(use.call), use.answer.value);
+    } else {
+      pddl::put(tables.exact, use.call.function, use.call.arguments,
+                has_value ? std::optional(use.answer.value) : std::nullopt);
+    }
+  }
+  return tables;
+}
+
+}  // namespace roci::planner::engine

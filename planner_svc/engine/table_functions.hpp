@@ -1,0 +1,34 @@
+// Values of external functions from a table instead of a service.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/pddl/function_table.hpp"
+#include "planner_svc/engine/function_source.hpp"
+
+namespace roci::planner::engine {
+
+/// Gives exact values where no lower bound stands in the tables; tuples that are not in them are unavailable.
+/// `owner` is given as who says so.
+class TableFunctions final : public FunctionSource {
+ public:
+  TableFunctions(pddl::FunctionTables tables, std::string owner)
+      : tables_(std::move(tables)), owner_(std::move(owner)) {}
+
+  std::vector<FunctionValue> evaluate(std::span<const FunctionCall> calls,
+                                      const std::function<bool()>& cancelled) override;
+
+ private:
+  FunctionValue answer(const FunctionCall& call) const;
+
+  pddl::FunctionTables tables_;
+  std::string owner_;
+};
+
+/// Returns what owners said as such a table, by which a call can be made again without them. What has no value otherwise stands in it as
+/// unreachable.
+pddl::FunctionTables tables_of(std::span<const FunctionUse> uses);
+
+}  // namespace roci::planner::engine
