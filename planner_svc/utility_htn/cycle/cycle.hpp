@@ -153,7 +153,8 @@ class Cycle {
   temporal::Duration length(const Block& block, std::size_t link) const;
   temporal::Time free_until(const Link& of) const;
   void fit_downlinks();
-  void keep_limits(Report& report);
+  bool keep_limits(Report& report);
+  void settle(temporal::Time now, Report& report);
   double budget() const;
   bool end_with_budget(temporal::Time now, Report& report);
   std::vector<double> values_now(temporal::Time now) const;

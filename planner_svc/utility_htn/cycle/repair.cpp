@@ -13,6 +13,7 @@ using temporal::Duration, temporal::Time;
 namespace {
 
 constexpr char kNoLongerFits[] = "it no longer fits";
+constexpr int kMostTurns = 4;
 constexpr char kNoTimeLeft[] = "no time is left at which the rest of it fits";
 
 }  // namespace
@@ -75,11 +76,11 @@ bool Cycle::keep_rules(Time now, Report& report) {
 }
 
 // What has moved to another sol may take more of it than its limit permits: downlinks that were made longer take less, and then what has not
-// begun gives way, the last one first.
-void Cycle::keep_limits(Report& report) {
-  if (delivery_ == nullptr) return;
+// begun gives way, the last one first. Returns whether some sol was overdrawn.
+bool Cycle::keep_limits(Report& report) {
+  if (delivery_ == nullptr) return false;
   auto overdrawn = delivery_->overdrawn_sols(data().downlinks, past_.values);
-  if (overdrawn.empty()) return;
+  if (overdrawn.empty()) return false;
   fit_downlinks();
   while (!(overdrawn = delivery_->overdrawn_sols(data().downlinks, past_.values)).empty()) {
     const Block* last = nullptr;
@@ -95,6 +96,19 @@ void Cycle::keep_limits(Report& report) {
     if (last == nullptr) break;
     drop(*last, "downlinks of its sol take more than its limit", report);
   }
+  return true;
+}
+
+// Downlinks of other lengths, and what gave way to a limit, may leave the rest in conflict: then that is repaired, and may overdraw a sol in its
+// turn.
+void Cycle::settle(Time now, Report& report) {
+  bool repaired = false;
+  for (int turn = 0; turn < kMostTurns && keep_limits(report); ++turn) {
+    repaired |= keep_order(now, report);
+    repaired |= repair(now, report);
+  }
+  if (repaired && std::ranges::find(report.done, Activity::repair) == report.done.end())
+    report.done.insert(std::ranges::upper_bound(report.done, Activity::repair), Activity::repair);
 }
 
 // Conflicts behind the commit window are mended by moving what has begun to later, and taking out what has not; the

@@ -326,6 +326,22 @@ TEST_F(DeliveryTest, WhatItsSolHasNoEnergyForIsSentInALaterOne) {
   EXPECT_THAT(sols, ElementsAre(0, 1));
 }
 
+// What needs something that gave way to a limit does not stay without it.
+TEST_F(DeliveryTest, WhatGaveWayToALimitTakesAlongWhatNeedsIt) {
+  add_parameter("sol_limit_j", 150);
+  add_parameter("sol_s", 400);
+  task("sample").opens = 100s;
+  task("image").constraints = {{.timeline = testing::kSite, .states = 2}};  // which digging opens
+  ASSERT_THAT(planned(), ElementsAre("idle", "sample", "view"));
+  const auto downlinks = cycle_->data().downlinks;
+  ASSERT_LT(downlinks[0].start, 400s);
+  ASSERT_GE(downlinks[1].start, 400s);
+  delivery_->executed(1, task_named(network_, "send_view"), 0s, 20s, cycle_->past().values);
+  cycle_->run(10s);  // commits `idle`
+  EXPECT_THAT(cycle_->timelines().conflicts(Time{0}, temporal::no_bound), IsEmpty());
+  EXPECT_THAT(delivery_->overdrawn_sols(cycle_->data().downlinks, cycle_->past().values), IsEmpty());
+}
+
 // So what gave way because of its sol comes in a later one.
 TEST_F(LongSessions, WhatGaveWayToItsSolIsPlannedInALaterOne) {
   add_parameter("sol_limit_j", 350);
