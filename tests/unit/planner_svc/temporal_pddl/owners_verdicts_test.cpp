@@ -13,7 +13,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 FunctionUse use(const std::string& from, const std::string& to, FunctionOutcome outcome) {
-  return {{"pathplan", "traverse_time", {from, to}}, {outcome, 7, {"pathplan_svc", "3"}, ""}};
+  return {{"pathplan", "traverse_time", {from, to}}, {outcome, 7, {"pathplan_svc", "3", {}}, ""}};
 }
 
 std::string words(const std::vector<FunctionUse>& uses) {
