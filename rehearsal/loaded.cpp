@@ -2,7 +2,6 @@
 
 #include <dlfcn.h>
 
-#include <stdexcept>
 #include <string>
 #include <string_view>
 
@@ -14,9 +13,7 @@ namespace fs = std::filesystem;
 
 services::MakeService* load_service(const fs::path& program) {
   const fs::path file = program.string() + ".so";
-  const auto refuse = [&](const std::string& why) {
-    throw std::invalid_argument(file.string() + ": " + why);
-  };
+  const auto refuse = [&](const std::string& why) { throw NotLoadable(file.string() + ": " + why); };
   if (std::error_code error; !fs::is_regular_file(file, error))
     refuse("there is no such file, so that a rehearsal in one process cannot start " + program.string() +
            "; build the program with rocinante_service() (docs/sdk.md), or fly with roci-launch");

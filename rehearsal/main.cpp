@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "rehearsal/flight.hpp"
+#include "rehearsal/loaded.hpp"
 #include "rehearsal/statistics.hpp"
 #include "services/clock/wall.hpp"
 #include "services/process/link_report.hpp"
@@ -126,6 +127,9 @@ int main(int argc, char** argv) {
   }
   try {
     return rehearse(arguments);
+  } catch (const roci::rehearsal::NotLoadable& error) {
+    std::cerr << "roci-rehearse: " << error.what() << "\n";
+    return kServiceFailed;
   } catch (const std::invalid_argument& error) {
     std::cerr << "roci-rehearse: " << error.what() << "\n";
     return kBadInput;
