@@ -34,6 +34,7 @@ inline const std::map<std::string, std::string> kFileReaders{
     {"planner_svc/temporal_pddl/cli/progress_line.cpp", "- /proc/self, which the kernel writes"},
     {"planner_svc/temporal_pddl/cli/read_model.cpp", "FuzzPddl.MutatedCorpusNeverCrashes"},
     {"planner_svc/temporal_pddl/validate/main.cpp", "FuzzPddl.MutatedCorpusNeverCrashes"},
+    {"planner_svc/timeline_htn/cli/commands.cpp", "FuzzPddl.MutatedCorpusNeverCrashes"},
     {"planner_svc/timeline_htn/reading/load.cpp",
      "FuzzTimelineModels.ADamagedFileIsTakenOrRefusedWithItsPlace"},
     {"planner_svc/utility_htn/cli/commands.cpp",
