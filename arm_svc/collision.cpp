@@ -35,7 +35,8 @@ std::shared_ptr<fcl::CollisionGeometryd> geometry_of(const Box& b) {
   return std::make_shared<fcl::Boxd>(b.size);
 }
 
-// These return how far the shape reaches from its own origin along x, y and z of the base, when it is turned by `pose`, in m.
+// These return how far the shape reaches from its own origin along x, y and z of the base,
+// when it is turned by `pose`, in m.
 Eigen::Vector3d extent(const Sphere& s, const Eigen::Isometry3d&) {
   return Eigen::Vector3d::Constant(s.radius);
 }

@@ -1,5 +1,5 @@
-// What a dedicated executive must know of itself after its death: in which epoch it commanded, which command was under way, how far
-// the method had come, and the state that it showed.
+// What a dedicated executive must know of itself after its death: in which epoch it commanded, which command was under
+// way, how far the method had come, and the state that it showed.
 #pragma once
 
 #include <cstdint>
@@ -22,12 +22,12 @@ struct RunRecord {
   std::optional<services::owner::Word> broken_off{};  ///< why it is to end early
 };
 
-/// Is kept in a small file, whole or not at all, before what it says is done. Where the disk does not take a change, all is
-/// forgotten with the process: an old word would have things done twice. Changes throw std::system_error then.
+/// Is kept in a small file, whole or not at all, before what it says is done. Where the disk does not take a change,
+/// all is forgotten with the process: an old word would have things done twice. Changes throw std::system_error then.
 class CallRecord {
  public:
-  /// Reads the file, if there is one. An empty path keeps nothing. `around_write` is called before and after each write (for tests
-  /// of a death there).
+  /// Reads the file, if there is one. An empty path keeps nothing. `around_write` is called before and after each write
+  /// (for tests of a death there).
   explicit CallRecord(std::filesystem::path file, std::function<void()> around_write = {});
 
   /// The file is there and cannot be read: nothing is known of the process before this one, and owners tell the epoch.
@@ -43,7 +43,8 @@ class CallRecord {
 
   void begin_run(const services::owner::Request& request, temporal::Time now);
   void begin(const services::commander::Issued& issued);
-  /// The call is over, and the next one begins now, if there is one. Of a run that takes more than kTaken nothing is known any more.
+  /// The call is over, and the next one begins now, if there is one.
+  /// Of a run that takes more than kTaken nothing is known any more.
   void take(method_run::Taken taken, temporal::Time now);
   void break_off(const services::owner::Word& why);
   /// What is open stays so.

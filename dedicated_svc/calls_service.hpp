@@ -36,12 +36,12 @@ class Calls {
 
   /// Begins a call that belongs to this command from above; `on_answer` runs once, on the loop, never within begin().
   void begin(const method_run::Ask& ask, const services::owner::Request& above, OnAnswer on_answer);
-  /// Goes on with a call that an earlier process began then: adopts the command that is open, and begins all else again. It waits for poses
-  /// that it has not heard of yet.
+  /// Goes on with a call that an earlier process began then: adopts the command that is open, and begins all else
+  /// again. It waits for poses that it has not heard of yet.
   void resume(const method_run::Ask& ask, const services::owner::Request& above, temporal::Time begun,
               OnAnswer on_answer);
-  /// The name under which the call of this number commands: unique over the commanders from above and their epochs, and the same
-  /// whenever this command is carried out again.
+  /// The name under which the call of this number commands: unique over the commanders from above and their epochs, and
+  /// the same whenever this command is carried out again.
   static std::string activity_of(const services::owner::Request& above, std::uint32_t number);
   /// Ends the call that is under way early: its answer comes as ever, at the latest when its owner has answered.
   void break_off();

@@ -39,8 +39,8 @@ Spots read_spots(const mission::Entry& root) {
   return spots;
 }
 
-// After a death whoever commanded what was under way must ask for it within this time, else it has failed; from then on what was
-// observed is heard for so long before it goes on.
+// After a death whoever commanded what was under way must ask for it within this time, else it has failed; from then on
+// what was observed is heard for so long before it goes on.
 constexpr temporal::Duration kAskedWithin = std::chrono::seconds(10);
 constexpr temporal::Duration kHear = std::chrono::seconds(1);
 
@@ -75,7 +75,8 @@ class DedicatedService final : public services::Service, private owner::Driver {
     bool asked = false;
   };
 
-  // Finds out from ledger and record what the process before this one was doing, and whether this one is able to go on with it.
+  // Finds out from ledger and record what the process before this one was doing,
+  // and whether this one is able to go on with it.
   void take_up(const std::filesystem::path& ledger) {
     const std::optional<RunRecord> before = record_.run();
     std::optional<Step> step;

@@ -1,4 +1,5 @@
-// How far the tables of a dedicated executive may grow by what comes from the wire (docs/resilience.md, "What is bounded").
+// How far the tables of a dedicated executive may grow by what comes from the wire
+// (docs/resilience.md, "What is bounded").
 #pragma once
 
 #include <cstddef>

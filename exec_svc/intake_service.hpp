@@ -1,4 +1,5 @@
-/// The door to the reactor: what comes from the wire is let in as long as the tables that keep it have room (limits.hpp).
+/// The door to the reactor: what comes from the wire is let in as long as the tables that keep
+/// it have room (limits.hpp).
 #pragma once
 
 #include <functional>
@@ -13,8 +14,8 @@
 
 namespace roci::exec {
 
-/// What is known already always passes, so that a full table holds up nobody who is in it. Each refusal is an event with a code
-/// of its own, "goal.no_room" and so on, the first time and each time that there are ten times as many.
+/// What is known already always passes, so that a full table holds up nobody who is in it. Each refusal is an event
+/// with a code of its own, "goal.no_room" and so on, the first time and each time that there are ten times as many.
 class Intake {
  public:
   using Report = std::function<void(const reactor::Event&)>;

@@ -1,5 +1,5 @@
-/// The line to the ground: orders in, the stages of each out; and, as observations for everybody, the values that the ground has set
-/// and what plans have made of timelines that nobody observes.
+/// The line to the ground: orders in, the stages of each out; and, as observations for everybody, the values that the
+/// ground has set and what plans have made of timelines that nobody observes.
 #pragma once
 
 #include <functional>

@@ -26,8 +26,8 @@ class OutputPublisher {
 
   /// Who holds what is acknowledged from now on.
   void acknowledge_as(goals::AckStage stage) { ack_stage_ = stage; }
-  /// Commands that begin something wait while this says false; what ends something, and what asks, does not. One that is
-  /// cancelled meanwhile, or whose owner is lost, is not sent at all.
+  /// Commands that begin something wait while this says false; what ends something, and what asks, does not. One that
+  /// is cancelled meanwhile, or whose owner is lost, is not sent at all.
   void let_commands_wait(std::function<bool()> may_command) { may_command_ = std::move(may_command); }
   /// Sends what waits, if it may go now.
   void send_waiting();

@@ -26,7 +26,8 @@ class OwnersPresence {
     std::function<void()> looked;  ///< after all of that
   };
 
-  /// A death of one of `owners` counts once `owner_return` is over without it; 0: at once. Who is there is kept in `journal`.
+  /// A death of one of `owners` counts once `owner_return` is over without it; 0: at once.
+  /// Who is there is kept in `journal`.
   OwnersPresence(services::Node& node, journal::Journal& journal, std::set<std::string> owners,
                  temporal::Duration owner_return, Listeners listeners);
 

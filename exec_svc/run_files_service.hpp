@@ -21,8 +21,9 @@ mission::ExecutiveRole role_of(const services::RunSettings&, const services::nod
 std::filesystem::path run_file(const services::RunSettings&, const std::string& executive,
                                const std::string& name);
 
-/// Returns `file` once a journal can be opened there: a damaged one has been salvaged (journal/salvage.hpp), one that has
-/// lost its end says so (Journal::watch_extent), and while the disk takes nothing it waits, which the log tells. Throws as salvage_if_damaged() does, but no DiskError.
+/// Returns `file` once a journal can be opened there: a damaged one has been salvaged (journal/salvage.hpp), one that
+/// has lost its end says so (Journal::watch_extent), and while the disk takes nothing it waits, which the log tells.
+/// Throws as salvage_if_damaged() does, but no DiskError.
 std::filesystem::path usable_journal(const std::filesystem::path& file, services::process::DiskPause);
 
 }  // namespace roci::exec

@@ -1,5 +1,5 @@
-// What the generated deserialize functions ask before they take memory or believe a value (idl/bound_decoding.py puts the
-// calls in). A payload comes from anybody; what it claims of itself is compared with what it holds.
+// What the generated deserialize functions ask before they take memory or believe a value (idl/bound_decoding.py puts
+// the calls in). A payload comes from anybody; what it claims of itself is compared with what it holds.
 #pragma once
 
 #include <fastcdr/Cdr.h>

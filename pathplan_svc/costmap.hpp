@@ -15,8 +15,8 @@ struct RoverLimits {
   double max_slope = 0.35;       ///< radians, of the plane under the rover
   double rock_clearance = 0.25;  ///< rocks above this height are obstacles
   double max_roughness = 0.30;   ///< largest distance of the ground from the plane under the rover
-  /// Is the largest difference of elevation between a cell and one that shares a side with it; 0: no limit. On a slope that
-  /// is allowed the difference is up to tan(max_slope) times the side of a cell.
+  /// Is the largest difference of elevation between a cell and one that shares a side with it; 0: no limit. On a slope
+  /// that is allowed the difference is up to tan(max_slope) times the side of a cell.
   double max_step = 0;
 };
 
@@ -28,7 +28,8 @@ struct Disc {
 };
 
 /// Says why a cell may not be entered. A `margin` cell is nearer than the rover's radius to a rock, a disc, a
-/// keep-out zone, unknown ground or the edge of the map; the centre of a `disc` cell lies in a disc, that of a `keep_out` cell in a polygon.
+/// keep-out zone, unknown ground or the edge of the map; the centre of a `disc` cell lies in a disc, that of a
+/// `keep_out` cell in a polygon.
 enum class CellState : std::uint8_t { free, margin, steep, rough, step, rock, unknown, disc, keep_out };
 
 /// Returns the name above.
@@ -39,8 +40,8 @@ const char* to_string(CellState state);
 /// navigation software for planetary exploration", IEEE Aerospace 2002.
 ///
 /// A verdict is sound for the whole cell, not for its centre alone: each point of a free cell keeps the
-/// rover's radius from every occupied cell, unknown cell, disc and keep-out zone. A cell blocked for its slope, roughness or
-/// step blocks the rover's centre only. Unknown ground is never free.
+/// rover's radius from every occupied cell, unknown cell, disc and keep-out zone. A cell blocked for its slope,
+/// roughness or step blocks the rover's centre only. Unknown ground is never free.
 class Costmap {
  public:
   /// Fits the map to the site, with its keep-out zones and those given. Throws std::invalid_argument for limits that

@@ -32,9 +32,9 @@ class SearchTree {
   /// Returns the centres from the source to `target`, both included; none if there is no way.
   Polyline path_to(terrain::Cell target) const;
   bool reaches(terrain::Cell target) const { return move_[grid_.index(target)] != kNone; }
-  /// Tells whether the way to `target` is still open on the map, which may have been given obstacles since the search. Then
-  /// the way is the one that a new search would find: costs have only risen, and those on the way have not, so that nothing
-  /// else became better or, where costs are equal, earlier.
+  /// Tells whether the way to `target` is still open on the map, which may have been given obstacles since the search.
+  /// Then the way is the one that a new search would find: costs have only risen, and those on the way have not, so
+  /// that nothing else became better or, where costs are equal, earlier.
   bool holds(const Costmap& map, terrain::Cell target) const;
 
  private:

@@ -6,8 +6,8 @@
 
 namespace roci::pathplan {
 
-/// Hazards that are on the map at one time; one more is refused (event hazard.refused). The map is built anew with each change,
-/// which takes time by their number.
+/// Hazards that are on the map at one time; one more is refused (event hazard.refused). The map is built anew with each
+/// change, which takes time by their number.
 inline constexpr std::size_t kHazards = 1'000;
 /// Versions of the map in one life of the service; the next life counts on from there, so that no version comes twice.
 inline constexpr std::uint64_t kVersionsOfALife = 1'000'000;

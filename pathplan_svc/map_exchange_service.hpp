@@ -1,4 +1,5 @@
-// What a path planner hears of the terrain from its own robot and from the team, what it tells the team, and what it shows who watches.
+// What a path planner hears of the terrain from its own robot and from the team, what it tells the team,
+// and what it shows who watches.
 #pragma once
 
 #include <functional>
@@ -21,8 +22,9 @@ struct Team {
   std::vector<std::string> planners;          ///< services of a robot that tell maps
 };
 
-/// Keeps a robot's map beyond the loaded one up to date (topics `terrain_finding`, `map_patch`), and tells it when its settings
-/// or the command `tell` say so; `merge` ends when a patch has been taken. It lives as long as its node's loop runs.
+/// Keeps a robot's map beyond the loaded one up to date (topics `terrain_finding`, `map_patch`), and tells it when its
+/// settings or the command `tell` say so; `merge` ends when a patch has been taken.
+/// It lives as long as its node's loop runs.
 class MapExchange final : private services::owner::Driver {
  public:
   /// What it needs of its service.

@@ -8,8 +8,8 @@
 
 namespace roci::pathplan {
 
-/// Holds which part of a map a computation has looked at, in square tiles of at least 8 x 8 cells, so that its size is the
-/// same for every map. What has looked at no tile of a changed cell would come out the same again.
+/// Holds which part of a map a computation has looked at, in square tiles of at least 8 x 8 cells, so that its size is
+/// the same for every map. What has looked at no tile of a changed cell would come out the same again.
 class ReadSet {
  public:
   ReadSet() = default;

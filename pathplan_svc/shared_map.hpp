@@ -50,8 +50,8 @@ struct Intake {
   bool changed = false;  ///< an obstacle came, moved or went
 };
 
-/// Obstacles by finder and id; of two words on one the later counts, and at one time the one that is greater, member by member. So the
-/// same findings give the same map in whatever order, however often and by whomever they are told.
+/// Obstacles by finder and id; of two words on one the later counts, and at one time the one that is greater, member by
+/// member. So the same findings give the same map in whatever order, however often and by whomever they are told.
 class SharedMap {
  public:
   /// `team` says by service who belongs to which robot; `robot` is the one whose map it is (empty: the team's).
@@ -59,8 +59,8 @@ class SharedMap {
 
   /// Takes what the robot has found itself.
   Intake find(const FoundObstacle&);
-  /// Takes a patch, whole or not at all. Refused are: an author that is no service of the team, a patch older than one of its
-  /// author that was taken, an obstacle that is not finite, off the map or larger than it, and what finds no
+  /// Takes a patch, whole or not at all. Refused are: an author that is no service of the team, a patch older than one
+  /// of its author that was taken, an obstacle that is not finite, off the map or larger than it, and what finds no
   /// room. On what this robot has found itself nobody else has a say.
   Intake take(const MapPatch&);
 

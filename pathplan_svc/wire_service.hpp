@@ -24,8 +24,9 @@ struct FunctionAnswer {
 };
 
 /// Gives every tuple an outcome. An object is a place if it has properties x and y, finite numbers in metres.
-/// A place off the map or inside an obstacle is unreachable, and the reply says why in words; so is what known ground proves
-/// to be cut off. Where unknown ground may hold a way the outcome is FUNCTION_UNKNOWN. Once stopped, the rest is FUNCTION_FAILED.
+/// A place off the map or inside an obstacle is unreachable, and the reply says why in words; so is what known ground
+/// proves to be cut off. Where unknown ground may hold a way the outcome is FUNCTION_UNKNOWN. Once stopped,
+/// the rest is FUNCTION_FAILED.
 FunctionAnswer evaluate(PathPlanner& planner, const v1::FunctionRequest& request,
                         const std::stop_token& stop);
 

@@ -25,8 +25,8 @@ class CallRecords {
   explicit CallRecords(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
   /// Writes the engine's own record of the call, N with each of its endings, and N.json: verdict, reason,
-  /// wall_s, evaluated, expanded, function_requests, function_tuples, exact_values, from_remaining, actions. What cannot be written is left out: a record is no
-  /// reason to end a mission. The oldest calls beyond kKept are removed.
+  /// wall_s, evaluated, expanded, function_requests, function_tuples, exact_values, from_remaining, actions. What
+  /// cannot be written is left out: a record is no reason to end a mission. The oldest calls beyond kKept are removed.
   void keep(const engine::Answer& answer, double wall_s);
 
  private:

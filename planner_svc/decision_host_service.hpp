@@ -14,8 +14,8 @@
 
 namespace roci::planner {
 
-/// Hears plans, observations and questions, and asks the resolver whenever something is new that it could decide on. One that
-/// is asked again after a restart gets the same answer under the same key, which the executive takes once.
+/// Hears plans, observations and questions, and asks the resolver whenever something is new that it could decide on.
+/// One that is asked again after a restart gets the same answer under the same key, which the executive takes once.
 class DecisionHost {
  public:
   /// `settings` outlives this.

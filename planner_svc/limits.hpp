@@ -1,5 +1,5 @@
-// How far the planner's tables may grow by what comes from the wire. What is beyond is not taken in; the event planner.no_room
-// tells it (docs/resilience.md, "What is bounded").
+// How far the planner's tables may grow by what comes from the wire. What is beyond is not taken in; the event
+// planner.no_room tells it (docs/resilience.md, "What is bounded").
 #pragma once
 
 #include <cstddef>
@@ -19,14 +19,15 @@ inline constexpr std::size_t kResults = 10'000;
 inline constexpr std::size_t kProducts = 2'000;
 /// Offers of functions: a module for each of 256 owners.
 inline constexpr std::size_t kOffers = 256;
-/// Orders of the ground about the network, in a run; bytes of one network; how many wait for a cycle; reasons of a refusal, and bytes of
-/// one.
+/// Orders of the ground about the network, in a run; bytes of one network; how many wait for a cycle; reasons of a
+/// refusal, and bytes of one.
 inline constexpr std::size_t kNetworkOrders = 1'000;
 inline constexpr std::size_t kNetworkBytes = 8U << 20U;
 inline constexpr std::size_t kNetworksWaiting = 4;
 inline constexpr std::size_t kReasons = 50;
 inline constexpr std::size_t kReasonBytes = 2'000;
-/// Bytes of a downlink schedule or a mission outlook, well below what their topics carry: what has no room is counted in them.
+/// Bytes of a downlink schedule or a mission outlook, well below what their topics carry:
+/// what has no room is counted in them.
 inline constexpr std::size_t kOutlookBytes = 8U << 20U;
 /// Decisions of running plans that are open at one time.
 inline constexpr std::size_t kDecisions = 1'000;

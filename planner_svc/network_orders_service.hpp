@@ -1,4 +1,5 @@
-// Orders of the ground about the model of an engine that plans all the time: networks and values of parameters (R83, R116, R118).
+// Orders of the ground about the model of an engine that plans all the time:
+// networks and values of parameters (R83, R116, R118).
 #pragma once
 
 #include <functional>
@@ -15,13 +16,13 @@
 
 namespace roci::planner {
 
-/// An order is given once: the same key again is answered with where it stands. What is wrong with it as a message (no right to it, cut
-/// short, another checksum, too large) is refused here, before the engine sees it. What the engine takes is kept in the run folder before
-/// it is called accepted.
+/// An order is given once: the same key again is answered with where it stands. What is wrong with it as a message (no
+/// right to it, cut short, another checksum, too large) is refused here, before the engine sees it. What the engine
+/// takes is kept in the run folder before it is called accepted.
 class NetworkOrders {
  public:
-  /// `heard` is called when there is something to take(). Settings and node outlive this. Tells (event "planner.network_damaged") of what was
-  /// kept and cannot be read; then the mission's own model is in force.
+  /// `heard` is called when there is something to take(). Settings and node outlive this. Tells (event
+  /// "planner.network_damaged") of what was kept and cannot be read; then the mission's own model is in force.
   NetworkOrders(services::Node& node, const Settings& settings, const std::filesystem::path& folder,
                 std::function<void()> heard);
   NetworkOrders(const NetworkOrders&) = delete;

@@ -36,8 +36,8 @@ struct KeptNetworks {
   friend bool operator==(const KeptNetworks&, const KeptNetworks&) = default;
 };
 
-/// Keeps orders.json and the newest model in a folder. A model is written under a name of its own before the list that names it
-/// replaces the one before, so that both are whole whenever the process ends.
+/// Keeps orders.json and the newest model in a folder. A model is written under a name of its own before the list that
+/// names it replaces the one before, so that both are whole whenever the process ends.
 class NetworkStore {
  public:
   /// Empty: nothing is kept, and keep() throws.
@@ -45,8 +45,8 @@ class NetworkStore {
 
   /// Returns nothing where nothing was kept. Throws std::runtime_error that names the damaged file.
   std::optional<KeptNetworks> load() const;
-  /// Puts a list in the place of the one before. With `model`, the bytes of the new one, names its file in `kept`, too. When it returns all is on the
-  /// disk. Throws std::runtime_error; then what was kept before is.
+  /// Puts a list in the place of the one before. With `model`, the bytes of the new one, names its file in `kept`, too.
+  /// When it returns all is on the disk. Throws std::runtime_error; then what was kept before is.
   void keep(KeptNetworks& kept, const std::string* model = nullptr) const;
   /// Forgets what another run left here.
   void clear() const;

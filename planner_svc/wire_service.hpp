@@ -40,8 +40,8 @@ engine::Goal from_wire(const v1::Goal&);
 engine::Observation from_wire(const v1::Observation&);
 engine::DataProduct from_wire(const v1::DataProduct&);
 engine::StepStatus from_wire(const v1::StepStatus&);
-/// Of a completed command. Values that are no finite number, or have names of more than kNameBytes, are left out, and those after the first
-/// kResultValues.
+/// Of a completed command. Values that are no finite number, or have names of more than kNameBytes, are left out, and
+/// those after the first kResultValues.
 engine::CommandResult from_wire(const v1::CommandAck&);
 engine::Receipt from_wire(const v1::PlanReceipt&);
 

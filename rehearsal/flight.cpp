@@ -43,7 +43,8 @@ class FirstFailure {
   std::exception_ptr error_;
 };
 
-// Writes what the services say in a flight into its run folder, in mission time. It takes no part in the clock, so it changes nothing.
+// Writes what the services say in a flight into its run folder, in mission time.
+// It takes no part in the clock, so it changes nothing.
 class Listener {
  public:
   explicit Listener(const FlightOptions& options)

@@ -10,7 +10,8 @@
 
 namespace roci::rehearsal {
 
-/// In the run folder of each flight: a line of JSON for each event of any service, with its mission time, its sender, code and text.
+/// In the run folder of each flight: a line of JSON for each event of any service, with its mission time,
+/// its sender, code and text.
 inline constexpr char kEventsFile[] = "events.jsonl";
 
 /// A program by the name that it has as a process.
@@ -29,8 +30,8 @@ std::vector<mission::ServiceEntry> crew_of(const std::filesystem::path& mission)
 services::node::NodeOptions node_options(const std::filesystem::path& mission, const mission::ServiceEntry&,
                                          double pace);
 
-/// Of a linked program, of one of `more`, which a mission names by a path, or of the file beside a program of somebody else
-/// (loaded.hpp). Throws std::invalid_argument, with the remedy, where there is none.
+/// Of a linked program, of one of `more`, which a mission names by a path, or of the file beside a program of somebody
+/// else (loaded.hpp). Throws std::invalid_argument, with the remedy, where there is none.
 services::MakeService* make_of(const mission::ServiceEntry&, const std::vector<Program>& more = {});
 
 struct FlightOptions {
@@ -43,7 +44,8 @@ struct FlightOptions {
 
 /// Flies the services that the mission names. Returns when the clock's master has ended the run; the summary
 /// of each executive stands in the run folder. Throws std::invalid_argument for a mission that names a program whose
-/// service is neither linked here nor beside it, or no clock master, and what a service threw while it was made or while it ran.
+/// service is neither linked here nor beside it, or no clock master,
+/// and what a service threw while it was made or while it ran.
 void fly(const FlightOptions& options);
 
 }  // namespace roci::rehearsal

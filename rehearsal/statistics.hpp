@@ -1,4 +1,5 @@
-// What several flights of a mission have in common: how often each deed was done and each kind of data came home (R119: predict by flying many).
+// What several flights of a mission have in common: how often each deed was done and each kind of data came home (R119:
+// predict by flying many).
 #pragma once
 
 #include <cstddef>
@@ -12,7 +13,8 @@ namespace roci::rehearsal {
 /// Counts flights by what the world wrote of them. A flight counts once for each deed, however often it was done in it.
 class Statistics {
  public:
-  /// Reads the run folder of a flight that has ended; a file that the world did not write counts as empty, and a line that is none is left out.
+  /// Reads the run folder of a flight that has ended; a file that the world did not write counts as empty, and a line
+  /// that is none is left out.
   void add(const std::filesystem::path& run_folder, const std::string& result);
 
   /// Returns sentences, a line each: results, deeds, data; the most frequent first.

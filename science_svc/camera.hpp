@@ -6,8 +6,8 @@
 
 namespace roci::science {
 
-/// Is what is known of a camera: a pinhole on a mast, that looks ahead and down; pixels are square (Hartley and Zisserman,
-/// "Multiple View Geometry in Computer Vision", 2nd ed. 2004, chapter 6).
+/// Is what is known of a camera: a pinhole on a mast, that looks ahead and down; pixels are square (Hartley and
+/// Zisserman, "Multiple View Geometry in Computer Vision", 2nd ed. 2004, chapter 6).
 struct CameraModel {
   double mast_m = 1.9;
   double tilt_deg = 18;  ///< of the middle of the image below the horizon
@@ -31,8 +31,8 @@ struct MappedGround {
   bool contains(terrain::Point p) const { return !site || site->grid().contains(p); }
 };
 
-/// Returns where the ray through a pixel (fractions count from the upper left corner of the image) meets the ground, or nothing
-/// if that is above the horizon, beyond `reach` metres, or off the map.
+/// Returns where the ray through a pixel (fractions count from the upper left corner of the image) meets the ground, or
+/// nothing if that is above the horizon, beyond `reach` metres, or off the map.
 std::optional<terrain::Point> ground_at(const MappedGround&, const CameraModel&, const Viewpoint&, int width,
                                         int height, double column, double row, double reach);
 

@@ -96,8 +96,8 @@ void Detector::learn(const Photo& photo) {
 
 std::vector<Candidate> Detector::candidates(const Photo& photo, double threshold) {
   const std::vector<Patch> patches = this->patches(photo);
-  // An image is compared with earlier ones alone, so that what fills much of it does not hide itself; but with itself, too,
-  // while there are few.
+  // An image is compared with earlier ones alone, so that what fills much of it does not hide itself; but with itself,
+  // too, while there are few.
   const bool few = background_.images() < kTeachers;
   if (few) background_.learn(patches);
   const std::vector<double> scores = background_.scores(patches);

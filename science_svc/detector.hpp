@@ -1,4 +1,5 @@
-// The detector finds, in images, what nobody asked for: ground that looks unlike what this run has shown so far (Background).
+// The detector finds, in images, what nobody asked for: ground that looks unlike what this run has
+// shown so far (Background).
 #pragma once
 
 #include <memory>
@@ -64,10 +65,11 @@ class Detector {
   std::vector<Candidate> candidates(const Photo&, double threshold);
   /// Learns from a photo what ground looks like, each id once, and looks for nothing in it.
   void learn(const Photo&);
-  /// Looks at a photo, each id once. Returns what deserves a goal: candidates on the map that no earlier find is near to, as many
-  /// as interval and limit allow.
+  /// Looks at a photo, each id once. Returns what deserves a goal: candidates on the map that no earlier find is near
+  /// to, as many as interval and limit allow.
   std::vector<Find> look(const Photo&, temporal::Time now);
-  /// Takes in that an earlier process has raised a goal there: it counts for merging and for the limit, once for each id.
+  /// Takes in that an earlier process has raised a goal there:
+  /// it counts for merging and for the limit, once for each id.
   void remember(const std::string& find_id, temporal::Time now);
   /// Returns whether it has looked at kPhotos (limits.hpp), and looks at no new one.
   bool full() const;

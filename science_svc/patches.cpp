@@ -94,8 +94,8 @@ Features describe(const Light& light, const Window& w) {
   return out;
 }
 
-// Returns the size of a patch of kGroundSide metres that is seen at a slant, in the image's middle column; nothing where the row
-// shows no ground within reach.
+// Returns the size of a patch of kGroundSide metres that is seen at a slant, in the image's middle column; nothing
+// where the row shows no ground within reach.
 std::optional<Window> patch_in_row(const GreyImage& image, const CameraModel& camera, const Viewpoint& from,
                                    const MappedGround& ground, double reach, int row) {
   const auto seen = ground_at(ground, camera, from, image.width, image.height, image.width / 2.0, row, reach);

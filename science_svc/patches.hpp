@@ -9,10 +9,11 @@
 namespace roci::science {
 
 inline constexpr int kFeatures = 10;
-/// Are, each of light as a share of that of the image's ground: brightness, contrast, gradients along and across (logarithms),
-/// how far the lightest and the darkest pixel lie from the mean, the shares of very light and of very dark pixels, and of the
-/// local binary patterns (Ojala, Pietikäinen, Mäenpää, "Multiresolution gray-scale and rotation invariant texture classification
-/// with local binary patterns", IEEE TPAMI 24, 2002) those that are flat and those that are no uniform edge.
+/// Are, each of light as a share of that of the image's ground: brightness, contrast, gradients along and across
+/// (logarithms), how far the lightest and the darkest pixel lie from the mean, the shares of very light and of very
+/// dark pixels, and of the local binary patterns (Ojala, Pietikäinen, Mäenpää, "Multiresolution gray-scale and rotation
+/// invariant texture classification with local binary patterns", IEEE TPAMI 24, 2002) those that are flat and those
+/// that are no uniform edge.
 using Features = Eigen::Matrix<double, kFeatures, 1>;
 
 /// Is a rectangle of ground in an image.
@@ -23,8 +24,8 @@ struct Patch {
   Features features = Features::Zero();
 };
 
-/// Cuts what lies within `reach` metres into patches that show about as much ground, whether near or far, and overlap by half;
-/// from the top down, at most kPatches.
+/// Cuts what lies within `reach` metres into patches that show about as much ground, whether near or far, and overlap
+/// by half; from the top down, at most kPatches.
 std::vector<Patch> patches_of(const terrain::GreyImage&, const CameraModel&, const Viewpoint&,
                               const MappedGround&, double reach);
 

@@ -8,8 +8,8 @@
 namespace roci::science {
 
 /// Reads a binary PGM file of 8 bits and 16 … kSidePixels pixels a side (limits.hpp), whoever wrote it. Throws
-/// terrain::MapError, which names the image and says what is wrong, for anything else; memory is taken for what is there,
-/// not for what a header claims.
+/// terrain::MapError, which names the image and says what is wrong, for anything else; memory is taken for what is
+/// there, not for what a header claims.
 terrain::GreyImage read_picture(std::string_view file, const std::string& id);
 
 /// Is a rectangle of pixels; `left` and `top` are its first ones.

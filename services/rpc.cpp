@@ -46,8 +46,8 @@ void send(Node& node, const Publisher<Reply>& replies, const std::shared_ptr<con
              [&node, replies, reply, postponed] { send<Reply>(node, replies, reply, postponed + 1); });
 }
 
-// Whether the caller may ask again for what it was answered: live, from outside the run, or over a link. Else the barrier
-// delivers, and nothing is kept for it.
+// Whether the caller may ask again for what it was answered: live, from outside the run, or over a link. Else the
+// barrier delivers, and nothing is kept for it.
 bool may_ask_again(Node& node, const v1::SampleHeader& header) {
   return !node.impl().simulated() || header.incarnation() == 0 ||
          node.impl().links.round_trip(header.sender()).has_value();

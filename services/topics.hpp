@@ -1,6 +1,6 @@
 // The one table of topics: type, name, QoS, whether the topic takes part in the simulated clock's barrier, and whom it
-// reaches: everyone of the run, the services of one robot, or the team (transport/scope.hpp), and how large a sample may be
-// (transport/payload_limit.hpp). Clocked types carry a SampleHeader named `header`, which the node fills in.
+// reaches: everyone of the run, the services of one robot, or the team (transport/scope.hpp), and how large a sample
+// may be (transport/payload_limit.hpp). Clocked types carry a SampleHeader named `header`, which the node fills in.
 #pragma once
 
 #include "roci_idl/clock.h"

@@ -46,8 +46,8 @@ namespace {
 namespace topics = services::topics;
 namespace owner = services::owner;
 
-// So many executives are counted to know when the mission is over: one for each robot, ten times over. Beyond them nobody
-// keeps a run open.
+// So many executives are counted to know when the mission is over: one for each robot, ten times over. Beyond them
+// nobody keeps a run open.
 constexpr std::size_t kExecutives = 256;
 constexpr char kGround[] = "ground";  // who tells of hazards that the scenario states
 constexpr Duration kCallDeadline = std::chrono::seconds(30);
@@ -338,8 +338,8 @@ class SimService final : public services::Service, private owner::Driver {
     }
   }
 
-  // What was really done, for whoever asks after the run whether anything was done twice: one array, written as it grows, and whole
-  // however the process ends.
+  // What was really done, for whoever asks after the run whether anything was done twice: one array, written as it
+  // grows, and whole however the process ends.
   void record_begun() {
     for (const world::Begun& one : world_.take_begun()) {
       const nlohmann::json entry{{"time_us", one.at.count()},         {"robot", one.robot},

@@ -34,7 +34,8 @@ using services::contract::ChildProcess;
 const std::vector<std::string> kVendors = {"fastdds", "cyclonedds"};
 // The kinds are bare (the vendor's API), ours (writer and reader of our transport), call (services/rpc.hpp on
 // top of it), tuples (1,000 argument tuples in one request of ours), reaction (from an observation to the
-// executive's command) and dedicated (the same through a dedicated executive). With --secure there are secure and secure_tuples, too: ours and tuples, encrypted.
+// executive's command) and dedicated (the same through a dedicated executive). With --secure there are secure and
+// secure_tuples, too: ours and tuples, encrypted.
 const std::vector<std::string> kKinds = {"bare", "ours", "call", "tuples", "reaction", "dedicated"};
 const std::vector<std::string> kSecureKinds = {"secure", "secure_tuples"};
 std::vector<std::string> all_kinds() {

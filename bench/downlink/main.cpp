@@ -1,6 +1,7 @@
 // bench_downlink [--seeds N] [--first-seed N] [--products N] [--windows N] [--load X]
-// It measures the Downlink Manager: one large question for each seed, with the gap that is proven, and then the questions of a planner that
-// adds tasks as long as their data has room. It prints one JSON object; times are in milliseconds of processor time.
+// It measures the Downlink Manager: one large question for each seed, with the gap that is proven, and then the
+// questions of a planner that adds tasks as long as their data has room. It prints one JSON object; times are in
+// milliseconds of processor time.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <ctime>

@@ -1,4 +1,5 @@
-// The experiments of MEXEC, section V.A (R121–R123): one network, one setting of odds and costs, flights by strategy and seed.
+// The experiments of MEXEC, section V.A (R121–R123): one network, one setting of odds and costs,
+// flights by strategy and seed.
 #pragma once
 
 #include <cstdint>
@@ -25,7 +26,8 @@ struct Setting {
   Costs costs;
   double discovery_share = 0;
   double discovery_utility = 0;
-  /// What replanning does without: "retry" (what it resolves is planned anew), "repair", "optimize", "learning", "discovery".
+  /// What replanning does without: "retry" (what it resolves is planned anew), "repair", "optimize",
+  /// "learning", "discovery".
   std::set<std::string> without;
   /// Only the first execution of this task fails, so; everything else goes as the network has it (figure 5).
   std::optional<std::pair<std::string, Resolution>> only_failure;
@@ -52,7 +54,8 @@ class Experiment {
   /// Flies so that everything goes as the network has it, on a battery that bears the bias.
   Flown without_failures(double bias) const;
 
-  /// Returns what a planner brings home that knows the world of that bias and seed beforehand; `without_j` less than the battery holds.
+  /// Returns what a planner brings home that knows the world of that bias and seed beforehand;
+  /// `without_j` less than the battery holds.
   Prescience prescient(double bias, std::uint64_t seed, double without_j = 0) const;
 
   /// Returns the fate of a task's n-th execution in the world of that bias and seed.

@@ -1,5 +1,5 @@
-// The experiments of MEXEC, section V.A (R103–R106, R121–R123): four strategies under noise on the energy of tasks, whole flights at the level
-// of tasks. One JSON object to standard output.
+// The experiments of MEXEC, section V.A (R103–R106, R121–R123): four strategies under noise on the energy of tasks,
+// whole flights at the level of tasks. One JSON object to standard output.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
@@ -105,7 +105,8 @@ json summary_of(const Prescience& known) {
           {"chains", known.chains},     {"proven", known.proven}};
 }
 
-// The figures of the equations: u_avg and c_avg over all that prescient plans do, and as many tasks as b pays for (section V.A).
+// The figures of the equations: u_avg and c_avg over all that prescient plans do,
+// and as many tasks as b pays for (section V.A).
 json expected(const model::Network& network, const Setting& setting,
               const std::vector<Prescience>& prescients) {
   double utility = 0, cost = 0, tasks = 0;
@@ -139,8 +140,8 @@ json expected(const model::Network& network, const Setting& setting,
   return out;
 }
 
-// What the same planner would bring home without the energy that the flight put into chains which it did not complete, and without
-// that which it did not spend.
+// What the same planner would bring home without the energy that the flight put into chains which it did not complete,
+// and without that which it did not spend.
 json ladder(const Experiment& experiment, const model::Network& network, const Flown& flown, double bias,
             std::uint64_t seed) {
   const double unspent = network.timelines[network.budget].initial - flown.spent;

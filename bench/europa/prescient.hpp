@@ -1,4 +1,5 @@
-// A planner that knows energies and failures of a flight beforehand and pays for the failures as the flight does (MEXEC, section V.A, R121).
+// A planner that knows energies and failures of a flight beforehand and pays for the failures as the flight does
+// (MEXEC, section V.A, R121).
 #pragma once
 
 #include <cstdint>
@@ -36,8 +37,9 @@ struct Success {
   double seconds = 0;   ///< of both, and of the wait for the ground
 };
 
-/// Returns what the first, second, … success of a primitive task takes. A failure that flexible execution or the ground resolves is
-/// paid by the same execution again; one that replanning resolves by the next, which does not fail. Resolving is the cheapest there is.
+/// Returns what the first, second, … success of a primitive task takes. A failure that flexible execution or the ground
+/// resolves is paid by the same execution again; one that replanning resolves by the next, which does not fail.
+/// Resolving is the cheapest there is.
 std::vector<Success> successes(const Foreknowledge& known, const planner::utility_htn::model::Task& task,
                                std::size_t count);
 
@@ -53,10 +55,11 @@ struct Prescience {
   bool proven = false;  ///< nothing better exists
 };
 
-/// Chooses the chains whose utility at the first rank is greatest, by branch and bound over the requests in the order of the network; among
-/// all choices, unless `proven` is false. What a choice takes depends on nothing but how often each task is done, since fates go by task
-/// and execution. It keeps the budget, the time that each atomic timeline has, windows of requests and what selects decompositions; it does
-/// not place the chains in time. So no flight in the same world that pays for its failures brings home more.
+/// Chooses the chains whose utility at the first rank is greatest, by branch and bound over the requests in the order
+/// of the network; among all choices, unless `proven` is false. What a choice takes depends on nothing but how often
+/// each task is done, since fates go by task and execution. It keeps the budget, the time that each atomic timeline
+/// has, windows of requests and what selects decompositions; it does not place the chains in time. So no flight in the
+/// same world that pays for its failures brings home more.
 Prescience prescient(const Foreknowledge& known);
 
 }  // namespace roci::bench::europa

@@ -1,4 +1,5 @@
-// A plan on timelines at some time of a flight: what is projected, and where a task could be placed (MEXEC, figure 7; R75).
+// A plan on timelines at some time of a flight: what is projected,
+// and where a task could be placed (MEXEC, figure 7; R75).
 #pragma once
 
 #include <map>
@@ -29,7 +30,8 @@ struct Seen {
   std::map<std::string, std::vector<temporal::timelines::Interval>> valid;  ///< starts, by task
 };
 
-/// Puts what is planned and what runs onto timelines that are anchored now, and asks when each of these tasks could start.
+/// Puts what is planned and what runs onto timelines that are anchored now,
+/// and asks when each of these tasks could start.
 Seen seen(const Standing& standing, const std::vector<std::string>& tasks);
 
 }  // namespace roci::bench::europa

@@ -194,8 +194,8 @@ class TaskFlight {
     return faults.empty() ? std::string() : faults.front();
   }
 
-  // Without flexible execution nothing is tried again by the executive itself; it still waits for what is late, since the
-  // world of these experiments has no lateness but what resolving a failure takes.
+  // Without flexible execution nothing is tried again by the executive itself; it still waits for what is late, since
+  // the world of these experiments has no lateness but what resolving a failure takes.
   static void rigid(FlexiblePlan& plan) {
     for (PlanActivity& activity : plan.activities) activity.retries = 0;
   }
@@ -367,8 +367,8 @@ class TaskFlight {
     ends_.emplace(end, CommandAck{command.activity, command.attempt, stage, "", ""});
   }
 
-  // What was resolved once works: the next attempt of the same activity, or the next execution of the task, does not fail. What the
-  // ground resolves is done again by the same execution.
+  // What was resolved once works: the next attempt of the same activity, or the next execution of the task, does not
+  // fail. What the ground resolves is done again by the same execution.
   Fate fate_of(const Task& task, const Command& command) {
     if (command.attempt == 1)
       activity_fates_[command.activity] = flight_.fates(task.id, executions_[task.id]++);
@@ -389,7 +389,8 @@ class TaskFlight {
       ++out_.replanned;
       resolved_.insert(task.id);
       recovering_ += spend(flight_.costs.replanning_j);
-      // What its owner has given up the executive does not try again: the chain is broken off, and the engine plans anew.
+      // What its owner has given up the executive does not try again: the chain is broken off,
+      // and the engine plans anew.
       return CommandStage::cancelled;
     } else {
       ++out_.by_ground;

@@ -1,5 +1,6 @@
-// Flies a task network in process at the level of tasks (MEXEC, section V.A): the engine and the executive are those of flight, the world
-// knows no more of a task than how long it takes, what it draws from the budget, and whether it fails.
+// Flies a task network in process at the level of tasks (MEXEC, section V.A): the engine and the executive are those of
+// flight, the world knows no more of a task than how long it takes,
+// what it draws from the budget, and whether it fails.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +17,8 @@
 
 namespace roci::bench::europa {
 
-/// Returns the fate of the n-th execution of a task, counted from 0. It depends on nothing else, so that strategies meet the same world.
+/// Returns the fate of the n-th execution of a task, counted from 0. It depends on nothing else,
+/// so that strategies meet the same world.
 using Fates = std::function<Fate(const std::string& task, std::uint32_t execution)>;
 
 /// Names the strategies of section III.D (R102).

@@ -1,4 +1,5 @@
-// The world at the level of tasks for the experiments of MEXEC, section V.A (R121): what an execution of a task takes, and whether it fails.
+// The world at the level of tasks for the experiments of MEXEC, section V.A (R121):
+// what an execution of a task takes, and whether it fails.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +9,8 @@
 
 namespace roci::bench::europa {
 
-/// Names the cheapest mechanism that can resolve a failure (section II.C); each can resolve what those before it can, too.
+/// Names the cheapest mechanism that can resolve a failure (section II.C);
+/// each can resolve what those before it can, too.
 enum class Resolution { none, flexible, replanning, ground };
 
 /// Says how one execution of a task goes, relative to what the network has of it.
@@ -18,8 +20,8 @@ struct Fate {
   Resolution failure = Resolution::none;
 };
 
-/// Describes a world. Its draws depend on nothing but the seed, the task and how often that was executed before, so that all strategies meet the
-/// same world, whatever they do first.
+/// Describes a world. Its draws depend on nothing but the seed, the task and how often that was executed before, so
+/// that all strategies meet the same world, whatever they do first.
 struct TaskWorld {
   std::uint64_t seed = 1;
   double bias = 0;         ///< the mean energy is the model's × (1 + bias)

@@ -1,6 +1,6 @@
-// This bench asks what hierarchical timeline plans cost as problems grow: goals, way-points, rovers, by heuristic. Times are the
-// processor's of one thread. From anywhere: build/release/bench/bench_timeline_htn; exit code 1 when an aim is missed. With the argument
-// "threads" it asks alone what a second thread brings, five times.
+// This bench asks what hierarchical timeline plans cost as problems grow: goals, way-points, rovers, by heuristic.
+// Times are the processor's of one thread. From anywhere: build/release/bench/bench_timeline_htn; exit code 1 when an
+// aim is missed. With the argument "threads" it asks alone what a second thread brings, five times.
 #include <time.h>
 
 #include <cmath>

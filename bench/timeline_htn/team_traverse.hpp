@@ -1,4 +1,5 @@
-// Problems of any size of the kind that the engine is for: a primary rover whose scouts go ahead from way-point to way-point.
+// Problems of any size of the kind that the engine is for: a primary rover whose scouts go ahead
+// from way-point to way-point.
 #pragma once
 
 #include <string>
@@ -13,7 +14,8 @@ struct TeamTraverse {
   int chords = 0;  ///< each way-point has edges to so many beyond the next one
 };
 
-/// Returns domain, behaviours and problem as one text. With two rovers a cycle has 18 transitions on five timelines, as the paper's has.
+/// Returns domain, behaviours and problem as one text. With two rovers a cycle has 18 transitions on five
+/// timelines, as the paper's has.
 std::string text_of(const TeamTraverse& team);
 
 }  // namespace roci::bench::timeline_htn

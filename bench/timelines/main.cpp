@@ -1,6 +1,7 @@
-// This bench asks what timelines cost as they grow: placing a task among 1,000 to 100,000 impacts that lie equally dense, finding the
-// valid starts of a task among 100,000 of which 100 are on its timelines, and one step of a search on a battery that all tasks share.
-// From anywhere: build/release/bench/bench_timelines [SEED]; exit code 1 when an aim is missed.
+// This bench asks what timelines cost as they grow: placing a task among 1,000 to 100,000 impacts that lie equally
+// dense, finding the valid starts of a task among 100,000 of which 100 are on its timelines, and one step of a search
+// on a battery that all tasks share. From anywhere: build/release/bench/bench_timelines [SEED];
+// exit code 1 when an aim is missed.
 #include <time.h>
 
 #include <algorithm>

@@ -21,7 +21,8 @@ struct UrdfNotes {
 
 /// Checks a document. One that passes has unique names, known joint types, finite numbers, limits with lower
 /// < upper and positive velocity and effort on every movable joint, no zero axis, no mesh in <collision>,
-/// positive sizes, no negative mass or moment of inertia, and links that form one tree. Returns the first error otherwise, under the name `file`.
+/// positive sizes, no negative mass or moment of inertia, and links that form one tree. Returns the first error
+/// otherwise, under the name `file`.
 std::variant<UrdfNotes, UrdfError> check_urdf(const std::string& text, const std::string& file);
 
 }  // namespace roci::kinematics

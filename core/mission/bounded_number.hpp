@@ -8,8 +8,8 @@
 
 namespace roci::mission {
 
-/// Returns the number, or `fallback` where there is no entry. Throws FileError with the key's name where it lies outside of
-/// [least, most].
+/// Returns the number, or `fallback` where there is no entry. Throws FileError with the key's name where it lies
+/// outside of [least, most].
 double bounded_number(const std::optional<Entry>& entry, std::string_view key, double fallback, double least,
                       double most);
 

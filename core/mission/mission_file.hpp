@@ -14,8 +14,8 @@ inline constexpr int kMissionFormat = 1;
 std::filesystem::path mission_file(const std::filesystem::path& folder_or_file);
 
 /// Reads a mission file; one that states no `format` is of format 1. What it does not say itself is as in the file that
-/// its key `base` names, if it has one (Entry::with_base). Throws FileError, also for a file of a newer format, which is
-/// never misread, and for a base that is missing, the file itself or one that has a base. `findings` as in
+/// its key `base` names, if it has one (Entry::with_base). Throws FileError, also for a file of a newer format, which
+/// is never misread, and for a base that is missing, the file itself or one that has a base. `findings` as in
 /// Entry::load().
 Entry load_mission_file(const std::filesystem::path& folder_or_file, Findings* findings = nullptr);
 

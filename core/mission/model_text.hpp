@@ -13,10 +13,11 @@ namespace roci::mission {
 inline constexpr std::size_t kMostModelFiles = 64;
 inline constexpr std::size_t kMostModelBytes = 8U << 20U;
 
-/// Returns the text of the file that an entry of mission.yaml names (`model`). A YAML file that includes others comes with them:
-/// each file once, as a document of a stream, below a line `--- # file: NAME` that names it from the folder of the first one. So what is
-/// sent with a request to plan is the whole model as it was when the mission was read, and files that change later change nothing of it.
-/// Any other text stays as it is. Throws FileError where a file cannot be read or there is too much.
+/// Returns the text of the file that an entry of mission.yaml names (`model`). A YAML file that includes others comes
+/// with them: each file once, as a document of a stream, below a line `--- # file: NAME` that names it from the folder
+/// of the first one. So what is sent with a request to plan is the whole model as it was when the mission was read, and
+/// files that change later change nothing of it. Any other text stays as it is. Throws FileError where a file cannot be
+/// read or there is too much.
 std::string model_text(const Entry& name);
 
 /// Is one file of a model that came as one text.

@@ -17,8 +17,8 @@ std::vector<Diagnostic> check(const Domain& domain);
 /// Returns the findings in a problem; the domain must be one without findings.
 std::vector<Diagnostic> check(const Problem& problem, const Domain& domain);
 
-/// These parse, settle (settle.hpp) and check in one, and throw ParseError with everything that is wrong. What departs from
-/// PDDL and has one reading is read so, and stands in the tree's `warnings`; strict reading refuses it.
+/// These parse, settle (settle.hpp) and check in one, and throw ParseError with everything that is wrong. What departs
+/// from PDDL and has one reading is read so, and stands in the tree's `warnings`; strict reading refuses it.
 Domain load_domain(std::string_view text, std::string_view file,
                    Strictness strictness = Strictness::tolerant);
 /// `domain` must come from load_domain().

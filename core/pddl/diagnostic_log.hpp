@@ -11,8 +11,8 @@
 
 namespace roci::pddl {
 
-/// Keeps the findings of one text within bounds: of findings with the same message a few are kept and the others are counted
-/// in the last of these, and reading ends with the kMostErrors-th error.
+/// Keeps the findings of one text within bounds: of findings with the same message a few are kept and the others are
+/// counted in the last of these, and reading ends with the kMostErrors-th error.
 class DiagnosticLog {
  public:
   static constexpr std::size_t kMostErrors = 1000;

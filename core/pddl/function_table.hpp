@@ -4,7 +4,8 @@
 //   (traverse_time a b) >= 10
 //   (traverse_time a c) unreachable
 //   (traverse_time a d) unknown
-// A tuple may have both an exact value and a lower bound. "unreachable" is proved; "unknown" says that no value was found.
+// A tuple may have both an exact value and a lower bound. "unreachable" is proved;
+// "unknown" says that no value was found.
 #pragma once
 
 #include <map>

@@ -6,7 +6,8 @@
 
 namespace roci::pddl {
 
-/// Renames each variable that hides an outer one, ?x to ?x', in its quantifier and all that this binds, and warns of it.
+/// Renames each variable that hides an outer one, ?x to ?x', in its quantifier and all that
+/// this binds, and warns of it.
 void rename_hiding_variables(Domain& domain, DiagnosticLog& log);
 void rename_hiding_variables(Problem& problem, DiagnosticLog& log);
 

@@ -28,9 +28,9 @@ struct Token {
 /// with CR.
 class Lexer {
  public:
-  /// Takes a text whose letters are lower-cased, with a '\0' behind its last character. The lexer writes into it where a '?'
-  /// is joined with its name. `text` and `log` must outlive the lexer. Throws ParseError for a text in UTF-16, of which
-  /// nothing can be read.
+  /// Takes a text whose letters are lower-cased, with a '\0' behind its last character. The lexer writes into it where
+  /// a '?' is joined with its name. `text` and `log` must outlive the lexer. Throws ParseError for a text in UTF-16, of
+  /// which nothing can be read.
   Lexer(std::span<char> text, DiagnosticLog& log);
 
   Token next();

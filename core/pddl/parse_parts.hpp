@@ -1,5 +1,5 @@
-// This file is internal to core/pddl: parsing and checking of one text share it, so that all that is wrong with it is told
-// at once.
+// This file is internal to core/pddl: parsing and checking of one text share it, so that all that is wrong with it is
+// told at once.
 #pragma once
 
 #include <string_view>
@@ -17,8 +17,8 @@ struct Unread {
   bool functions = false;  ///< :functions and :modules
 };
 
-/// These read what can be read of a text and tell the rest to the log. They throw ParseError with all that the log has if
-/// the text is nothing like a domain or problem.
+/// These read what can be read of a text and tell the rest to the log. They throw ParseError with all that the log has
+/// if the text is nothing like a domain or problem.
 Domain read_domain(std::string_view text, DiagnosticLog& log, Unread& unread);
 Problem read_problem(std::string_view text, DiagnosticLog& log, Unread& unread);
 

@@ -10,8 +10,8 @@
 namespace roci::pddl {
 
 /// These throw ParseError with everything in the text that is not PDDL; names, types and arities are left to
-/// check.hpp. What departs from PDDL and has one reading is read so, and stands in the tree's `warnings`; strict reading
-/// refuses it. `file` is used in messages only.
+/// check.hpp. What departs from PDDL and has one reading is read so, and stands in the tree's `warnings`; strict
+/// reading refuses it. `file` is used in messages only.
 Domain parse_domain(std::string_view text, std::string_view file,
                     Strictness strictness = Strictness::tolerant);
 Problem parse_problem(std::string_view text, std::string_view file,

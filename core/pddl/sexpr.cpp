@@ -102,8 +102,8 @@ class Reader {
     open_.push_back({token.where, parts_.size(), token.first_in_line, token.indentation});
   }
 
-  // Whether a list at the beginning of its line stands further left than one that it is part of, or right below one that
-  // has parts in its own line. Sections are often not indented at all.
+  // Whether a list at the beginning of its line stands further left than one that it is part of, or right below one
+  // that has parts in its own line. Sections are often not indented at all.
   bool stands_before_innermost(const Token& token) const {
     const Open& outer = open_.back();
     if (!outer.first_in_line || token.where.column > outer.where.column) return false;

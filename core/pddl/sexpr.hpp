@@ -73,8 +73,8 @@ class SexprTree {
   std::optional<Sexpr> root_;
 };
 
-/// Reads the one list `(define (KIND …) …)`. What else stands in the text is told as a warning and left out; where there is
-/// no such list, the first list of the text is returned. What is wrong is told to the log and read on:
+/// Reads the one list `(define (KIND …) …)`. What else stands in the text is told as a warning and left out; where
+/// there is no such list, the first list of the text is returned. What is wrong is told to the log and read on:
 /// a parenthesis too few or too many is placed by the keywords of sections, (:action …) and the like, which stand in
 /// (define …) alone, and by the indentation, so that the sections behind it are read in their place.
 /// Throws ParseError, with all findings so far, for nesting beyond kMaxNesting, or no list at all.

@@ -1,5 +1,5 @@
-// External functions of the state: a value that depends on a fluent is asked for at declared levels of it, and the level at
-// which an action starts is one more parameter of the action. So planner and validator meet PDDL alone.
+// External functions of the state: a value that depends on a fluent is asked for at declared levels of it, and the
+// level at which an action starts is one more parameter of the action. So planner and validator meet PDDL alone.
 #pragma once
 
 #include <vector>
@@ -10,12 +10,12 @@ namespace roci::pddl {
 
 /// Returns what is wrong with the declared dependences: an unknown function or fluent, a fluent whose arguments are no
 /// parameters of the function or have other types, levels that do not ascend, other levels of the same fluent in
-/// another declaration, and a use outside of actions, or where an argument that the fluent needs is a quantified variable.
-/// `domain` must be one in which check() finds nothing wrong.
+/// another declaration, and a use outside of actions, or where an argument that the fluent needs is a quantified
+/// variable. `domain` must be one in which check() finds nothing wrong.
 std::vector<Diagnostic> check_state_dependence(const Domain& domain);
 
-/// Returns the uses of such functions in the goal or the metric, which have no start to read the state at. `domain` must come
-/// from load_domain().
+/// Returns the uses of such functions in the goal or the metric, which have no start to read the state at. `domain`
+/// must come from load_domain().
 std::vector<Diagnostic> check_state_dependence(const Problem& problem, const Domain& domain);
 
 /// Makes of each dependence of a function f on the fluent (g …) with levels l₀ < l₁ < … a parameter of f, of the type

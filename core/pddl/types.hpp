@@ -14,8 +14,8 @@
 namespace roci::pddl {
 
 /// Knows which types are above which; "object" is above every type. A type that is only named as a supertype
-/// exists too. Cycles are tolerated here (their types are all above one another) and refused by check(), and so is a type
-/// with more than kMostAbove types above it: with such a one, nothing is above any type but "object".
+/// exists too. Cycles are tolerated here (their types are all above one another) and refused by check(), and so is a
+/// type with more than kMostAbove types above it: with such a one, nothing is above any type but "object".
 class TypeTree {
  public:
   static constexpr std::size_t kMostAbove = 200;

@@ -1,11 +1,13 @@
-/// Pseudorandom numbers that are equal on every machine, which the distributions of the standard library do not promise.
+/// Pseudorandom numbers that are equal on every machine, which the distributions of the
+/// standard library do not promise.
 #pragma once
 
 #include <cstdint>
 
 namespace roci::pseudorandom {
 
-/// Mixes all bits of a number so that near ones lie apart: the finalizer of SplitMix64. It is a bijection, and 0 stays 0.
+/// Mixes all bits of a number so that near ones lie apart: the finalizer of SplitMix64.
+/// It is a bijection, and 0 stays 0.
 constexpr std::uint64_t finalized(std::uint64_t bits) {
   bits = (bits ^ (bits >> 30U)) * 0xbf58476d1ce4e5b9U;
   bits = (bits ^ (bits >> 27U)) * 0x94d049bb133111ebU;

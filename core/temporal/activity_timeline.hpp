@@ -1,5 +1,5 @@
-// Conditions of a plan may ask how its other activities went (MEXEC, section II.C: preconditions may be based on the execution state of
-// dependency tasks).
+// Conditions of a plan may ask how its other activities went (MEXEC, section II.C: preconditions may be based on the
+// execution state of dependency tasks).
 #pragma once
 
 #include <string>
@@ -8,8 +8,9 @@
 
 namespace roci::temporal {
 
-/// Returns the name of the timeline that has the state of an activity of the same plan as conditions see it: waiting, dispatched, running,
-/// succeeded, failed, skipped or cancelled, and `absent` where the plan has no activity of that id.
+/// Returns the name of the timeline that has the state of an activity of the same plan as conditions see it: waiting,
+/// dispatched, running, succeeded, failed, skipped or cancelled,
+/// and `absent` where the plan has no activity of that id.
 std::string activity_timeline(const std::string& id);
 
 /// Returns the id of the activity whose state the timeline has, or an empty text if it is none of these.

@@ -8,8 +8,8 @@
 
 namespace roci::temporal {
 
-/// Answers questions about pairs of points of one network by shortest paths: Dijkstra's algorithm with the earliest schedule as
-/// potential (Johnson 1977), begun anew for each question and ended as soon as it is answered.
+/// Answers questions about pairs of points of one network by shortest paths: Dijkstra's algorithm with the earliest
+/// schedule as potential (Johnson 1977), begun anew for each question and ended as soon as it is answered.
 class NetworkDistances {
  public:
   /// Points of constraints must lie below `point_count`. As everywhere no point lies before time 0.

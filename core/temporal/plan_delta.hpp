@@ -10,8 +10,9 @@
 
 namespace roci::temporal {
 
-/// Holds the change. The time points of what stays keep their numbers from version to version; those of removed activities may be
-/// given to new ones, in the same change or later, so that a plan that never ends needs no more points than it holds at once.
+/// Holds the change. The time points of what stays keep their numbers from version to version; those of removed
+/// activities may be given to new ones, in the same change or later, so that a plan that never ends needs no more
+/// points than it holds at once.
 struct PlanDelta {
   std::uint32_t from_version = 0;  ///< is that of the plan that changes; 0: none, `added` is the whole plan
   /// Holds id, version, engine, origin, number of points and function values as they become, and activities,

@@ -196,8 +196,8 @@ void sweep(const std::vector<Event>& events, const FlexiblePlan& plan, const Val
   if (seen != nullptr) correct();
 }
 
-// A number with which the plan began, reckoned back from what was seen by what had been executed until then. None where that cannot be
-// told, since an activity had assigned a value.
+// A number with which the plan began, reckoned back from what was seen by what had been executed until then. None where
+// that cannot be told, since an activity had assigned a value.
 Value reckoned_back(const std::vector<Event>& events, const ObservedValue& seen) {
   const double* number = std::get_if<double>(&seen.value);
   if (number == nullptr) return {};

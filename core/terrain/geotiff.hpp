@@ -17,8 +17,9 @@ struct ElevationModel {
 bool is_geotiff_name(const std::filesystem::path& file);
 
 /// Reads a digital elevation model with GDAL (Open Source Geospatial Foundation, gdal.org). It must have one band, a
-/// projection in metres (or a local frame in metres), square pixels, north at the top, and at most 16384 pixels a side. Throws MapError with the
-/// remedy for any other file, and for all files where this program was built without GDAL (CMake option ROCI_GEOTIFF).
+/// projection in metres (or a local frame in metres), square pixels, north at the top, and at most 16384 pixels a side.
+/// Throws MapError with the remedy for any other file, and for all files where this program was built without GDAL
+/// (CMake option ROCI_GEOTIFF).
 ElevationModel read_geotiff(const std::filesystem::path& file);
 
 }  // namespace roci::terrain

@@ -25,8 +25,8 @@ struct WayInText {
 /// Reads what to_text() writes: one to `most` points, all numbers finite. Nothing is kept of a text with more.
 WayInText read_way(std::string_view text, std::size_t most);
 
-/// Returns the way that ends so many metres before its end, measured along it; it keeps its first point in any case. Less than
-/// nothing counts as nothing.
+/// Returns the way that ends so many metres before its end, measured along it; it keeps its first point in any case.
+/// Less than nothing counts as nothing.
 Way cut_short(Way way, double metres);
 
 /// Returns the heading of the last leg that has a length (rad, from east towards north), or `otherwise` where none has.

@@ -65,8 +65,8 @@ class MethodRun {
   Step begin();
   /// Takes the answer to the call that was asked for last.
   Step take(const Answer& answer, const Observations& observed);
-  /// Begins, and takes what an earlier run of this command has taken: returns the step that that one came to. Neither call nor end, if it
-  /// would have ended before: it was another method.
+  /// Begins, and takes what an earlier run of this command has taken: returns the step that that one came to. Neither
+  /// call nor end, if it would have ended before: it was another method.
   Step begin_after(const std::vector<Taken>& taken);
   /// Of what is observed, the numbers that this method's repairs need.
   Observations needed(const Observations& observed) const;

@@ -40,10 +40,12 @@ struct CommandCall {
 };
 
 /// Asks a path planner for a path. Brings length_m, expected_s, expected_j, map_version, and the first way-point after
-/// the start as next_x, next_y. Of its way, without the last `short_m` but never without its first point, it brings the points as text
-/// (`way`, core/terrain/way.hpp), and where and how it ends as end_x, end_y and end_heading_rad. All else is of the whole path.
-/// A way of more than 256 points is not brought. With `map_told_s` it fails (map-too-old) where, as the answer comes, more than `map_within`
-/// has passed since that mission time: when the map of another robot, on which the path stands, was told. Errors: no-path (there is none), path-unknown (none was found), path-invalid.
+/// the start as next_x, next_y. Of its way, without the last `short_m` but never without its first point, it brings the
+/// points as text (`way`, core/terrain/way.hpp), and where and how it ends as end_x, end_y and end_heading_rad. All
+/// else is of the whole path. A way of more than 256 points is not brought. With `map_told_s` it fails (map-too-old)
+/// where, as the answer comes, more than `map_within` has passed since that mission time: when the map of another
+/// robot, on which the path stands, was told. Errors: no-path (there is none),
+/// path-unknown (none was found), path-invalid.
 struct PathCall {
   std::string planner;  ///< service that answers
   Place from;
@@ -53,15 +55,16 @@ struct PathCall {
   temporal::Duration map_within{0};
 };
 
-/// Tells a place in the frame of a robot: x (ahead) and y (to its left) in metres, bearing_rad (to its left), range_m and
-/// heading_rad, the world's heading from the robot to the place; world_x and world_y, where the place is. Error: no-pose, as long as it was never observed.
+/// Tells a place in the frame of a robot: x (ahead) and y (to its left) in metres, bearing_rad (to its left), range_m
+/// and heading_rad, the world's heading from the robot to the place; world_x and world_y, where the place is. Error:
+/// no-pose, as long as it was never observed.
 struct TransformCall {
   Place place;
   Template robot;
 };
 
-/// Waits until a timeline has a value, a state or a boolean (true, false); a number is brought as `value`. A call without a
-/// state waits until there is any.
+/// Waits until a timeline has a value, a state or a boolean (true, false); a number is brought as `value`. A call
+/// without a state waits until there is any.
 struct ObserveCall {
   Template timeline;
   Template state{};
@@ -115,7 +118,8 @@ struct Method {
   std::map<std::string, std::string> results{};  ///< what goes up with its success: "call.value" by name
   Shown during{};                                ///< else the command's name and arguments
   Shown then{};                                  ///< else the executive's state of rest
-  /// By "call.error" where it is for that call alone, by error, "*": any other; the first of these that is there counts.
+  /// By "call.error" where it is for that call alone, by error, "*": any other;
+  /// the first of these that is there counts.
   std::map<std::string, Shown> failed{};
   /// What it says of other timelines in the end, by outcome: "done", or an error as above. Timelines are templates.
   std::map<std::string, std::map<Template, Shown>> tells{};

@@ -9,8 +9,8 @@
 namespace roci::dedicated::methods {
 
 /// Reads mission.yaml of the folder, if there is one, and the settings of its other dedicated executives. Throws
-/// mission::FileError, at `timeline` of the section `dedicated`, if a component with this timeline has another owner than the
-/// service `name`, or if there is no such component and one of the others shows the timeline, too.
+/// mission::FileError, at `timeline` of the section `dedicated`, if a component with this timeline has another owner
+/// than the service `name`, or if there is no such component and one of the others shows the timeline, too.
 void check_sole_owner(const mission::Entry& dedicated, const std::filesystem::path& mission_folder,
                       const std::string& name);
 

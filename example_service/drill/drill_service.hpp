@@ -7,7 +7,8 @@
 
 namespace borehole {
 
-// Owns bore_time of the domain's module `drill`, the timelines ROBOT.drill and ROBOT.drill.hole.*, and the command `bore`.
+// Owns bore_time of the domain's module `drill`, the timelines ROBOT.drill and
+// ROBOT.drill.hole.*, and the command `bore`.
 std::unique_ptr<roci::services::Service> make_drill(roci::services::Node& node,
                                                     const roci::services::RunSettings& settings);
 

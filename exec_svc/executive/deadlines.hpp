@@ -20,8 +20,9 @@ class Deadlines {
   /// Returns whether an attempt that begins now may end in time: under LatenessPolicy::deadline one of the
   /// shortest duration, since no repair moves the times of the plan (R129); under the others always.
   bool leaves_room(Index activity, temporal::Time now) const;
-  /// Returns by when a command must have ended to be of use: a microsecond before its deadline, so that its owner's word on a repair that
-  /// took too long comes in time for the activity's contingency, or when it counts as hung. Its owner is told, and repairs no longer than that (R146).
+  /// Returns by when a command must have ended to be of use: a microsecond before its deadline, so that its owner's
+  /// word on a repair that took too long comes in time for the activity's contingency, or when it counts as hung. Its
+  /// owner is told, and repairs no longer than that (R146).
   temporal::Time latest_end(Index activity) const;
   /// Returns when a command counts as hung. An activity without a longest duration is followed as long as its
   /// owner lives.

@@ -42,7 +42,8 @@ void PlanRun::adopt(PlanRun& before, Time now, AfterStop stopped) {
     }
     if (!goes_on) {
       state_.runs[i].attempt = run.attempt;
-      // What is committed was promised as it stands, and so was the bound of its wait; what is only planned may have another start.
+      // What is committed was promised as it stands, and so was the bound of its wait;
+      // what is only planned may have another start.
       const PlanActivity& told = before.state_.plan.activities[found->second];
       const bool stands = told.commit == temporal::CommitState::committed && planned.commit == told.commit;
       if (stands && run.phase == ActivityPhase::waiting && run.wait_until) waits_.inherit(i, *run.wait_until);

@@ -19,10 +19,12 @@ namespace roci::exec::executive {
 class TimelineStore {
  public:
   void observe(const std::string& timeline, const temporal::Value& value);
-  /// Gives it the value, as an activity without a command does: it is internal then, unless it was observed, and later impacts count.
+  /// Gives it the value, as an activity without a command does: it is internal then, unless it was observed,
+  /// and later impacts count.
   void set(const std::string& timeline, const temporal::Value& value);
   std::optional<temporal::Value> value_of(const std::string& timeline) const;
-  /// Returns the value that it would have if the activity, which runs, gave back what it has taken for as long as it runs.
+  /// Returns the value that it would have if the activity, which runs,
+  /// gave back what it has taken for as long as it runs.
   std::optional<temporal::Value> value_without(const std::string& activity,
                                                const std::string& timeline) const;
 

@@ -46,7 +46,8 @@ bool same_sender(const SampleId& one, const SampleId& other) {
   return one.sender == other.sender && one.incarnation == other.incarnation;
 }
 
-// Heard before the newest one, or said by a service that was started anew and says what it said before: neither is a new wish.
+// Heard before the newest one, or said by a service that was started anew and says what it said
+// before: neither is a new wish.
 bool is_old(const GoalRecord& record, const GoalRequest& request) {
   const SampleId& sample = request.sample;
   const bool heard = std::ranges::any_of(record.before, [&](const SampleId& before) {

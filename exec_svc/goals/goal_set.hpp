@@ -65,8 +65,9 @@ struct GoalRecord {
   std::uint32_t plan_version = 0;
   SampleId answers;  ///< the newest request of this key, also one that was refused or changed nothing
   std::uint32_t revision = 0;  ///< rises with each change and recall that is taken
-  /// The newest request of each other sender before `answers`, oldest first. Who says a goal keeps its newest sample on the
-  /// topic, so that it is heard again, after one that came later, by an executive that is started anew, takes over or was cut off.
+  /// The newest request of each other sender before `answers`, oldest first. Who says a goal keeps its newest sample on
+  /// the topic, so that it is heard again, after one that came later, by an executive that is started anew,
+  /// takes over or was cut off.
   std::vector<SampleId> before;
 };
 

@@ -18,8 +18,8 @@ inline constexpr int kFormat = 1;
 /// executive keeps goals and plan numbers and plans anew, roci-replay refuses.
 inline constexpr std::int64_t kInputFormat = 13;
 
-/// What a journal of a version states besides in its second place, SQLite's application_id, so that one flipped byte is not taken
-/// for a newer version.
+/// What a journal of a version states besides in its second place, SQLite's application_id, so that one flipped byte is
+/// not taken for a newer version.
 constexpr std::int32_t stamp_of(std::int32_t version) { return 0x524f0000 + version; }
 
 /// What a journal states of its version.
@@ -34,9 +34,9 @@ struct StatedFormat {
 StatedFormat stated_format(sqlite3* database);
 std::string to_text(const StatedFormat& stated);
 
-/// Leaves an open journal at kFormat, stated in both places. A journal that states no version is of version 1, as baseline-05
-/// wrote them; older versions are brought up here, step by step. Throws NewerJournal for a newer one, and JournalError for one
-/// whose places contradict each other; nothing has changed then.
+/// Leaves an open journal at kFormat, stated in both places. A journal that states no version is of version 1, as
+/// baseline-05 wrote them; older versions are brought up here, step by step. Throws NewerJournal for a newer one, and
+/// JournalError for one whose places contradict each other; nothing has changed then.
 void settle_format(sqlite3* database);
 
 }  // namespace roci::exec::journal

@@ -1,5 +1,5 @@
-/// How far a journal was written, kept outside of the database: SQLite drops the tail of a write-ahead log that is cut short or
-/// damaged without a word ("WAL-mode File Format", section 4), and the journal looks whole all the same.
+/// How far a journal was written, kept outside of the database: SQLite drops the tail of a write-ahead log that is cut
+/// short or damaged without a word ("WAL-mode File Format", section 4), and the journal looks whole all the same.
 #pragma once
 
 #include <compare>
@@ -16,8 +16,8 @@ struct Extent {
   bool operator==(const Extent&) const = default;
 };
 
-/// The file JOURNAL-mark. It is written after each commit and never waits for the disk, so that it may be behind the journal, and
-/// is before it only when the journal has lost something.
+/// The file JOURNAL-mark. It is written after each commit and never waits for the disk, so that it may be behind the
+/// journal, and is before it only when the journal has lost something.
 class HighWaterMark {
  public:
   /// Opens nothing yet.

@@ -72,10 +72,10 @@ class Journal {
   void commit();
   void wait_for_disk(DiskWait);
 
-  /// From now on each commit leaves a mark beside the file (high_water_mark.hpp). Compares the journal with the mark that
-  /// an earlier start has left: what is missing is said in plain words, and stands in the journal as the text kShortened;
-  /// its epoch is at least the mark's then, and no copy goes on from it. Empty: nothing is missing, as far as is known.
-  /// Throws as commit() does.
+  /// From now on each commit leaves a mark beside the file (high_water_mark.hpp). Compares the journal with the mark
+  /// that an earlier start has left: what is missing is said in plain words, and stands in the journal as the text
+  /// kShortened; its epoch is at least the mark's then, and no copy goes on from it. Empty: nothing is missing, as far
+  /// as is known. Throws as commit() does.
   std::string watch_extent();
 
   /// Rises by one with each call: the epoch of this start of the executive.

@@ -1,5 +1,5 @@
-/// What becomes of a journal that is damaged: nothing of it is thrown away, what can be read of it begins a new one, and
-/// the executive starts in doubt.
+/// What becomes of a journal that is damaged: nothing of it is thrown away, what can be read of it begins a new one,
+/// and the executive starts in doubt.
 #pragma once
 
 #include <filesystem>
@@ -9,18 +9,19 @@
 
 namespace roci::exec::journal {
 
-/// The name of the journal's text that says how it was damaged, for the ground; empty: it is whole, or the ground knows.
+/// The name of the journal's text that says how it was damaged, for the ground; empty:
+/// it is whole, or the ground knows.
 inline constexpr char kDamage[] = "damage";
 
 /// Says what is wrong with a journal, in plain words; empty for one that is whole, and where there is none. Every page,
 /// goal and number of it is read. Throws NewerJournal, and DiskError if the disk does not let it be read.
 std::string damage_of(const std::filesystem::path& file);
 
-/// Leaves a journal that can be opened at `file`. One that is damaged is kept beside it, as FILE.damaged-1 (2, …); a new
-/// one takes its place with what can be read, row by row from both ends of each table: goals first, then numbers and the
-/// records of what happened. Inputs and snapshots are left behind, since nobody can replay a part of them. The new one's
-/// text kDamage says so. Does nothing to one that is whole. Throws as damage_of() does, and JournalError if there is no
-/// place for the new one.
+/// Leaves a journal that can be opened at `file`. One that is damaged is kept beside it, as FILE.damaged-1 (2, …); a
+/// new one takes its place with what can be read, row by row from both ends of each table: goals first, then numbers
+/// and the records of what happened. Inputs and snapshots are left behind, since nobody can replay a part of them. The
+/// new one's text kDamage says so. Does nothing to one that is whole. Throws as damage_of() does, and JournalError if
+/// there is no place for the new one.
 void salvage_if_damaged(const std::filesystem::path& file);
 
 }  // namespace roci::exec::journal

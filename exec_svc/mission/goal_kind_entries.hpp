@@ -11,12 +11,12 @@
 
 namespace roci::exec::mission {
 
-/// The list `objects` of the file; none if it has no such list. `mission` knows its role and whether it has a domain, without
-/// which types may be left out.
+/// The list `objects` of the file; none if it has no such list. `mission` knows its role and whether it has a domain,
+/// without which types may be left out.
 std::vector<ObjectModel> read_objects(const roci::mission::Entry& root, const MissionModel& mission);
 
-/// The formula of an item of `goal`, in which something stands in the place of each {name}. Throws FileError at the item
-/// for what is no condition of PDDL. `domain` may be null.
+/// The formula of an item of `goal`, in which something stands in the place of each {name}. Throws FileError at the
+/// item for what is no condition of PDDL. `domain` may be null.
 pddl::Condition read_goal(const roci::mission::Entry& goal, const roci::mission::Entry& kind,
                           const pddl::Domain* domain);
 

@@ -149,7 +149,8 @@ struct PlannerSettings {
 struct ReactorSettings {
   temporal::Duration ack_timeout = temporal::seconds(5);
   temporal::Duration fallback_timeout = temporal::seconds(60);  ///< for components to become inactive
-  /// An owner that died counts as lost, and its commands as failed, when it has not come back so long after (0: at once).
+  /// An owner that died counts as lost, and its commands as failed,
+  /// when it has not come back so long after (0: at once).
   temporal::Duration owner_return{0};
   std::uint32_t replan_limit = 50;
   std::uint32_t call_retries = 5;  ///< planner calls that failed for want of a service
@@ -157,7 +158,8 @@ struct ReactorSettings {
   std::uint32_t failure_limit = 5;
   temporal::Duration failure_pause = temporal::seconds(30);  ///< after the second of them; doubles with each
   temporal::Duration failure_pause_max = temporal::seconds(600);  ///< but is never longer
-  /// Planner calls spent on which hard goals give way when not even those all fit, so that the fewest do; 0: the newest does.
+  /// Planner calls spent on which hard goals give way when not even those all fit,
+  /// so that the fewest do; 0: the newest does.
   std::uint32_t hard_goal_trials = 0;
   bool keep_inputs = true;  ///< of the whole mission in the journal; false: since the last anchor
   /// Where inputs are not kept: so many of the newest traces, events and decisions are, and all since the last anchor.

@@ -11,7 +11,8 @@
 
 namespace roci::exec::orders {
 
-/// In the order of OrderKind in idl/order.idl, and one more: a command goes over the wire as an approval with its content.
+/// In the order of OrderKind in idl/order.idl, and one more: a command goes over the wire as an
+/// approval with its content.
 enum class OrderKind {
   hold,       ///< nothing new starts; with a target: this activity does not
   release,    ///< ends the hold of the same target

@@ -1,6 +1,6 @@
 /// What holds at the beginning of a PDDL problem: its facts and numbers, everything else is false (closed world), and
-/// what the domain derives from them (PDDL 2.2, Edelkamp and Hoffmann 2004, section 2.2: the smallest fixpoint, layer by
-/// layer).
+/// what the domain derives from them (PDDL 2.2, Edelkamp and Hoffmann 2004, section 2.2: the smallest fixpoint, layer
+/// by layer).
 #pragma once
 
 #include <map>

@@ -24,8 +24,8 @@ struct PredictedValue {
   temporal::Value value;
 };
 
-/// A goal as an engine sees it. In a PDDL problem the timelines of the condition are facts, "(sent image-a)", or whole conditions
-/// that timelines cannot say, "(exists (?m - module) …)".
+/// A goal as an engine sees it. In a PDDL problem the timelines of the condition are facts, "(sent image-a)", or whole
+/// conditions that timelines cannot say, "(exists (?m - module) …)".
 struct ProblemGoal {
   goals::GoalKey key;
   temporal::Condition achieved;

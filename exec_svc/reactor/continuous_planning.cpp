@@ -92,10 +92,10 @@ void ContinuousPlanning::note_planned(const FlexiblePlan& plan) {
   }
 }
 
-/// Where no goal is open any more the plan ends with the commands that run or are committed: what has none, as a load that is
-/// always on or a wait for the ground, would keep the mission open for as long as it was planned; and so would a command behind such a
-/// wait, or one that waits itself for what never comes, as of an empty battery: none is awaited for longer than a fallback after its
-/// planned start. Returns whether that is so.
+/// Where no goal is open any more the plan ends with the commands that run or are committed: what has none, as a load
+/// that is always on or a wait for the ground, would keep the mission open for as long as it was planned; and so would
+/// a command behind such a wait, or one that waits itself for what never comes, as of an empty battery: none is awaited
+/// for longer than a fallback after its planned start. Returns whether that is so.
 bool ContinuousPlanning::end_with_goals(Time now) {
   MissionState& state = parts_.state;
   if (state.goals.all().empty() || !state.goals.open().empty()) return false;

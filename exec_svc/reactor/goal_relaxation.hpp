@@ -58,11 +58,12 @@ RelaxationStep relax(const PlanReply& reply, const goals::GoalSet& goals,
 std::optional<goals::GoalKey> soft_goal_to_give_up(const PlanReply& reply, const goals::GoalSet& goals,
                                                    const Relaxation& relaxed);
 
-/// The hard goals of which some have to leave where relax() gives up hard ones: those that a proof blames, else all that are open.
+/// The hard goals of which some have to leave where relax() gives up hard ones:
+/// those that a proof blames, else all that are open.
 std::vector<goals::GoalKey> hard_goals_at_stake(const PlanReply& reply, const goals::GoalSet& goals);
 
-/// The next goal to do without, where the planner refuses a problem as invalid and nobody knows for which of its goals: the
-/// newest one first, then each older one. Nothing: all were tried, or there is one alone.
+/// The next goal to do without, where the planner refuses a problem as invalid and nobody knows for which of its goals:
+/// the newest one first, then each older one. Nothing: all were tried, or there is one alone.
 std::optional<goals::GoalKey> next_suspect(const goals::GoalSet& goals,
                                            const std::optional<goals::GoalKey>& suspect);
 

@@ -201,8 +201,8 @@ GroundOrders::Ruling GroundOrders::make_safe(Time now, const Order& order) {
   return {OrderStage::accepted};
 }
 
-// Two commanders of one subsystem would not know of each other: where an engine's plan runs, or is being made, the ground commands nothing
-// beside it.
+// Two commanders of one subsystem would not know of each other: where an engine's plan runs, or is being made, the
+// ground commands nothing beside it.
 GroundOrders::Ruling GroundOrders::command(Time now, const Order& order) {
   if (std::string fault = fault_of_commanding(); !fault.empty()) return refused(fault);
   SingleCommand single =

@@ -39,8 +39,9 @@ class PlanRecovery {
 
  private:
   void handle_failure(temporal::Time now, const executive::Outcome& outcome);
-  /// `kind` of break of an activity, which is no failure of its command: one like the break before, with nothing done since,
-  /// waits before the next plan as a component that fails again does (FailureBackoff); in the end its goals are given up.
+  /// `kind` of break of an activity, which is no failure of its command: one like the break before, with nothing done
+  /// since, waits before the next plan as a component that fails again does (FailureBackoff);
+  /// in the end its goals are given up.
   void count_break(temporal::Time now, const std::string& activity, const std::string& kind);
   void count_failure(temporal::Time now, const executive::Outcome& outcome);
 

@@ -24,8 +24,8 @@ class PlanningCycle {
   /// Acts on the reply to a call that begin() made.
   void take_reply(temporal::Time now, const PlanReply& reply);
   /// Binds the plan to its commands and runs it. A plan that cannot be executed makes the robot safe. A plan without
-  /// activities says that all goals hold already: it is adopted for a goal once, since an observation may follow, and the
-  /// second time the goal is given up.
+  /// activities says that all goals hold already: it is adopted for a goal once, since an observation may follow, and
+  /// the second time the goal is given up.
   void adopt(temporal::Time now, const PlanReply& reply);
 
   /// Not all goals fit: one leaves, or the next call is relaxed. False: that call is to be made as it is, for
@@ -48,26 +48,26 @@ class PlanningCycle {
   problem::Problem write(temporal::Time now, temporal::Time origin, const problem::Forecast& forecast) const;
   /// Says what the problem does without, and ends the goals that make it invalid. True: there were such goals.
   bool leave_out(const problem::Problem& problem);
-  /// The planner calls the problem invalid: it is asked again without one goal, then without another one. False: it is none
-  /// of them.
+  /// The planner calls the problem invalid: it is asked again without one goal, then without another one. False: it is
+  /// none of them.
   bool suspect_a_goal(temporal::Time now, const PlanReply& reply);
-  /// Not even the hard goals fit: the planner is asked without some of them, to see which ones' leaving saves the others. False:
-  /// the mission does not want that, or there is nothing more to try.
+  /// Not even the hard goals fit: the planner is asked without some of them, to see which ones' leaving saves the
+  /// others. False: the mission does not want that, or there is nothing more to try.
   bool try_without_some(const PlanReply& refusal);
-  /// Acts on the reply to such a call: what it was made without leaves, or is tried again with the next ones, or all leave that
-  /// would have left at once.
+  /// Acts on the reply to such a call: what it was made without leaves, or is tried again with the next ones, or all
+  /// leave that would have left at once.
   void take_trial(temporal::Time now, const PlanReply& reply);
   void give_up_hard(const RelaxationStep& step);
   void try_again_later(temporal::Time now, const PlanReply& reply);
-  /// The planner says that goals are out of reach, and was asked while somebody was away who tells what is so: no goal ends
-  /// for that. False: it has been asked often enough, and is believed.
+  /// The planner says that goals are out of reach, and was asked while somebody was away who tells what is so: no goal
+  /// ends for that. False: it has been asked often enough, and is believed.
   bool ask_again_seeing(temporal::Time now, const PlanReply& reply);
   void retry(const std::string& reason);
   void note_planned();
   /// Times of the starts beyond what the plan asks for: fixed ones at E2, the latest where the mission says so.
   void set_start_times(temporal::FlexiblePlan& plan) const;
-  /// Ends the goals for which a plan without activities was adopted before, with nothing achieved by it. True: there were
-  /// such goals.
+  /// Ends the goals for which a plan without activities was adopted before, with nothing achieved by it. True: there
+  /// were such goals.
   bool give_up_unseen();
 
   MissionState* state_;

@@ -58,7 +58,8 @@ class Reactor {
   /// The decisions that plans have asked for, and the newest receipt of each answer.
   const std::map<std::string, DecisionRecord>& decisions() const;
   std::vector<AnswerReceipt> answer_receipts() const;
-  /// Where every order of the ground stands, and the timelines that it has set, as they are now: tasks may have changed them since.
+  /// Where every order of the ground stands, and the timelines that it has set, as they are now:
+  /// tasks may have changed them since.
   std::vector<orders::OrderStatus> order_statuses() const;
   std::map<std::string, temporal::Value> ground_values() const;
   /// The newest value of every timeline that was observed.

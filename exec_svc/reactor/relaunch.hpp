@@ -11,13 +11,14 @@
 namespace roci::exec::reactor {
 
 /// What of a plan is left out with what the ground has dropped: what was skipped, all parts of what was dropped, and
-/// each activity of a level above (R130) of which no part is left, since nothing would bring it about. `steps` are those of the plan.
+/// each activity of a level above (R130) of which no part is left, since nothing would bring it about.
+/// `steps` are those of the plan.
 std::set<std::string> left_out(const temporal::FlexiblePlan& plan,
                                const std::vector<executive::StepStatus>& steps,
                                const std::set<std::string>& dropped);
 
-/// Why that cannot be left out, in plain words: an activity of a level above has begun, and would count as done without its last part.
-/// Empty: it can.
+/// Why that cannot be left out, in plain words: an activity of a level above has begun, and would count as done without
+/// its last part. Empty: it can.
 std::string drop_fault(const temporal::FlexiblePlan& plan, const std::vector<executive::StepStatus>& steps,
                        const std::set<std::string>& dropped);
 

@@ -16,8 +16,8 @@
 
 namespace roci::exec::reactor {
 
-/// For every numeric timeline that the plan's activities change by a known amount for good, and in no other way (what is given
-/// back at an activity's end is waited for): the
+/// For every numeric timeline that the plan's activities change by a known amount for good, and in no other way (what
+/// is given back at an activity's end is waited for): the
 /// range in which its value must lie now, so that the pre conditions of all waiting activities hold in plan
 /// order. Nobody sees how much of it the first attempt of a running activity has taken or given already: it may still
 /// do any part of what was planned, and whatever part would do is reckoned with, so that no alarm is false. What another
@@ -38,8 +38,8 @@ class ResourceMonitor {
   void charge_again(const std::string& activity, const temporal::Lookup& now);
   /// The activity has ended: nothing more is taken by it.
   void settle(const std::string& activity);
-  /// The same; but what a first attempt did may not be seen yet: until a timeline has another value than now, the activity
-  /// counts as before.
+  /// The same; but what a first attempt did may not be seen yet: until a timeline has another value than now, the
+  /// activity counts as before.
   void end(const std::string& activity, const temporal::Lookup& now);
 
   /// The first waiting activity, in plan order, whose pre conditions will fail on the values of now.

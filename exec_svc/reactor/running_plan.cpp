@@ -96,8 +96,8 @@ void RunningPlan::step(Time now, const ReactorInputs& inputs) {
   if (!state_->out.steps.empty() && state_->phase == MissionPhase::executing) report_windows();
 }
 
-// An activity without a command is the only one that knows what it has made of a timeline. Each value counts, also one that the next
-// activity changes at the same time.
+// An activity without a command is the only one that knows what it has made of a timeline. Each value counts, also one
+// that the next activity changes at the same time.
 void RunningPlan::conclude(const std::vector<StepStatus>& changes, Time now) {
   // An engine that plans all the time keeps such timelines itself.
   const bool engine_knows = state_->mission->executive.replanning == mission::Replanning::continuous;

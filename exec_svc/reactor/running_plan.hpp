@@ -64,14 +64,16 @@ class RunningPlan {
   std::string load(temporal::FlexiblePlan plan, temporal::Time now);
   /// Tells everybody that the loaded plan runs from now on.
   void begin(temporal::Time now);
-  /// Puts the plan in the place of the one before, as load(), and runs it from now on; what goes on stands in its record.
+  /// Puts the plan in the place of the one before, as load(), and runs it from now on;
+  /// what goes on stands in its record.
   std::string take_over(temporal::FlexiblePlan plan, temporal::Time now);
   /// Forgets a plan that has ended, but for its version.
   void unload(temporal::Time now);
   /// What the planner wrote for the loaded plan; each with its id in it.
   void keep_actions(std::vector<PlannedAction> planned) { planned_ = std::move(planned); }
 
-  /// Tells the ground which of the running plan's activities, as far as nobody has begun them, stand on values of an older model.
+  /// Tells the ground which of the running plan's activities, as far as nobody has begun them,
+  /// stand on values of an older model.
   void note_newer(const ModelVersion& model);
 
   /// The first activity that will not find what it needs, as far as is known (R73-R76). Asks to be woken when

@@ -1,5 +1,5 @@
-/// A single command that the ground gives (autonomy E1; R128): it runs as a plan of the ground's own, so that all that holds for plans
-/// holds for it, results, restarts and the executed plan among them.
+/// A single command that the ground gives (autonomy E1; R128): it runs as a plan of the ground's own, so that all that
+/// holds for plans holds for it, results, restarts and the executed plan among them.
 #pragma once
 
 #include <cstdint>
@@ -21,8 +21,8 @@ struct SingleCommand {
   std::string fault;     ///< in plain words; not empty: there is no plan
 };
 
-/// The plan in which an order of kind `command` is carried out: that command, and the single commands that run, which go on. A component
-/// that carries one out takes no other.
+/// The plan in which an order of kind `command` is carried out: that command, and the single commands that run, which
+/// go on. A component that carries one out takes no other.
 SingleCommand plan_of_command(const orders::Order& order, const mission::MissionModel& mission,
                               std::uint32_t version, temporal::Time now,
                               const executive::Executive& executive);

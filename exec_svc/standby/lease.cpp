@@ -194,7 +194,8 @@ Lease::Turn Lease::keep_leading(const Position& newest, Moment now) {
   return update_replication(newest, now);
 }
 
-// The other has the whole journal, has a right to lead from it, and hears every owner; so it takes over a term from now.
+// The other has the whole journal, has a right to lead from it, and hears every owner;
+// so it takes over a term from now.
 bool Lease::should_hand_over(Moment now) const {
   return replication_ == ReplicationState::paired && unleased_since_ &&
          now - *unleased_since_ >= settings_.term && heard_lately(now) &&

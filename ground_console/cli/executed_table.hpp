@@ -8,8 +8,8 @@
 
 namespace roci::console::cli {
 
-/// A row for each activity, in the order of the real starts, what never started last. Below a level of the hierarchy stand
-/// its parts, indented.
+/// A row for each activity, in the order of the real starts, what never started last. Below a level of the hierarchy
+/// stand its parts, indented.
 std::string executed_table(const v1::ExecutedPlan& plan);
 
 /// The same; times in seconds of mission time, absent where something never started or ended.

@@ -21,9 +21,9 @@ struct InLevels {
 /// However parents may be linked, no view is deeper.
 inline constexpr std::size_t kDeepest = 20;
 
-/// Returns the activities with their depths: parts behind what they are parts of, those of one parent by `start_of`, equal ones as they
-/// stood. Who names a parent that is not there stands at the top. What stands in a circle of parents, or deeper than kDeepest, comes last, at
-/// the top, so that nothing is missing.
+/// Returns the activities with their depths: parts behind what they are parts of, those of one parent by `start_of`,
+/// equal ones as they stood. Who names a parent that is not there stands at the top. What stands in a circle of
+/// parents, or deeper than kDeepest, comes last, at the top, so that nothing is missing.
 template <class Activity, class StartOf>
 std::vector<InLevels<Activity>> in_levels(const std::vector<Activity>& activities, StartOf start_of) {
   std::set<std::string> known;

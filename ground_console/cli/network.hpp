@@ -16,8 +16,8 @@ struct NetworkArguments {
   std::string robot;  ///< empty: the only one
 };
 
-/// Checks and packs a network with the program roci-network beside this one. Returns its binary form. Throws std::invalid_argument where that
-/// finds an error; it has then told what.
+/// Checks and packs a network with the program roci-network beside this one. Returns its binary form. Throws
+/// std::invalid_argument where that finds an error; it has then told what.
 std::string packed_network(const std::string& file);
 
 /// Makes the order; throws as packed_network() does.

@@ -55,7 +55,8 @@ std::string executed_of(const v1::StepStatus* step) {
          (step->ended_us() < 0 ? "" : lib::clock_text(step->ended_us()));
 }
 
-// Of an action that was bound to commands the wire has the objects by their positions, and the commands say the same in words.
+// Of an action that was bound to commands the wire has the objects by their positions,
+// and the commands say the same in words.
 bool is_bound(const v1::PlanActivity& activity) {
   return !activity.commands().empty() && !activity.arguments().empty() &&
          activity.arguments().front().name() == "1";

@@ -17,7 +17,8 @@ struct ReachArguments {
   std::string service = "pathplan_svc";  ///< that is asked
 };
 
-/// Asks the mission's path planner, and changes nothing. Returns an exit code: there is a way, or there is none (kRefused).
+/// Asks the mission's path planner, and changes nothing. Returns an exit code: there is a way,
+/// or there is none (kRefused).
 int show_reach(lib::Client& client, const ReachArguments& arguments, bool json);
 
 }  // namespace roci::console::cli

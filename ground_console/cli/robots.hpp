@@ -1,5 +1,5 @@
-// What is known of each robot, side by side: where it is, what its subsystems do, what its map has; and what decisions are open and
-// what is being repaired.
+// What is known of each robot, side by side: where it is, what its subsystems do, what its map has; and what decisions
+// are open and what is being repaired.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -41,11 +41,12 @@ std::string where_text(const Robot& robot, const MissionWords& words);
 /// "version 4: 2 obstacles (1 rock, 1 soil of scout), told version 3 at 00:02:00, has version 2 of scout.path".
 std::string map_text(const v1::KnownMap& map);
 
-/// The longest that the plan foresees for the activity that is repaired, as mission time; -1: it knows no bound, or no such activity.
+/// The longest that the plan foresees for the activity that is repaired, as mission time; -1:
+/// it knows no bound, or no such activity.
 std::int64_t planned_end_us(const lib::MissionView& view, const lib::Repair& repair);
 
-/// "scout.locomotion repairs p1.1-scout since 00:00:30, 45 % of the time until 00:01:10 used: drive: fault". Who joined after the command
-/// was sent does not know until when there is time, and reads what was planned.
+/// "scout.locomotion repairs p1.1-scout since 00:00:30, 45 % of the time until 00:01:10 used: drive: fault". Who joined
+/// after the command was sent does not know until when there is time, and reads what was planned.
 std::string repair_line(const lib::MissionView& view, const lib::Repair& repair);
 
 /// The decisions that are open, by id.

@@ -18,8 +18,8 @@ enum ExitCode {
   kBadUsage = 2,
   kNoMission = 3,
   kNotAchieved = 4,  ///< goal add --wait: dropped, failed or recalled
-  /// goal add --wait: the mission ended, or nothing was heard of it, before the goal had its end. watch --launcher: the view
-  /// was closed before the mission ended.
+  /// goal add --wait: the mission ended, or nothing was heard of it, before the goal had its end. watch --launcher: the
+  /// view was closed before the mission ended.
   kStillOpen = 5,
 };
 

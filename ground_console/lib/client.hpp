@@ -26,12 +26,13 @@ class NoRun : public std::runtime_error {
 };
 
 /// Where to join: what the command line and the environment say, else the one mission that runs on this
-/// machine; with `launcher`, the process id of a roci-launch, that of its own. Throws NoRun when there is none, std::runtime_error when several run, with the remedy.
+/// machine; with `launcher`, the process id of a roci-launch, that of its own. Throws NoRun when there is none,
+/// std::runtime_error when several run, with the remedy.
 services::process::Connection choose_run(const services::process::ConnectionFlags& flags,
                                          std::int64_t launcher = 0);
 
-/// The run that the command line names or that is the only one here; nothing if there is none or a choice. With `launcher`, the
-/// process id of a roci-launch, that of its own. Its mission folder stands on this machine.
+/// The run that the command line names or that is the only one here; nothing if there is none or a choice. With
+/// `launcher`, the process id of a roci-launch, that of its own. Its mission folder stands on this machine.
 std::optional<services::process::RunRecord> local_run(const services::process::ConnectionFlags& flags,
                                                       std::int64_t launcher = 0);
 
@@ -68,8 +69,9 @@ class Client {
   std::optional<v1::OrderStatus> send_order(const v1::Order& order,
                                             const std::function<void(const v1::OrderStatus&)>& tell,
                                             std::chrono::milliseconds limit);
-  /// Sends an order about the task network and tells each stage that this very sample reaches, until it is refused or in force; what takes
-  /// longer than `limit` after its last stage is not waited for. Returns the last stage; nothing if no planner answered.
+  /// Sends an order about the task network and tells each stage that this very sample reaches, until it is refused or
+  /// in force; what takes longer than `limit` after its last stage is not waited for. Returns the last stage;
+  /// nothing if no planner answered.
   std::optional<v1::NetworkStatus> send_network_order(
       const v1::NetworkOrder& order, const std::function<void(const v1::NetworkStatus&)>& tell,
       std::chrono::milliseconds limit);
@@ -81,8 +83,8 @@ class Client {
   std::optional<v1::PathReply> find_path(Place from, Place to, const std::string& service,
                                          std::chrono::milliseconds limit, std::string& why);
 
-  /// Waits until nothing that is new to the view has come for `quiet`: services tell their newest state one after the other, as they are
-  /// found. Gives up after `limit`.
+  /// Waits until nothing that is new to the view has come for `quiet`: services tell their newest state one after the
+  /// other, as they are found. Gives up after `limit`.
   void settle(std::chrono::milliseconds quiet = std::chrono::milliseconds(700),
               std::chrono::milliseconds limit = std::chrono::milliseconds(5000));
 

@@ -5,8 +5,8 @@
 
 namespace roci::console::lib {
 
-/// Goals, timelines, products, hazards, decisions and orders, of each kind: as many as an executive keeps. New ones beyond it are
-/// not shown; MissionView::unseen() counts them.
+/// Goals, timelines, products, hazards, decisions and orders, of each kind: as many as an executive keeps. New ones
+/// beyond it are not shown; MissionView::unseen() counts them.
 inline constexpr std::size_t kEntries = 10'000;
 /// Steps of plans: those of the largest plan that the wire carries.
 inline constexpr std::size_t kSteps = 100'000;

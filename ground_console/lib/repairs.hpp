@@ -30,7 +30,8 @@ struct Repair {
 
 const char* name_of(Repair::State state);  ///< "under way", "mended", "failed"
 
-/// Returns how much of the time from its first word to the latest end is used, from 0 on; beyond 1 it is late. Negative: no bound is known.
+/// Returns how much of the time from its first word to the latest end is used, from 0 on; beyond 1 it is late.
+/// Negative: no bound is known.
 double share_used(const Repair& repair, std::int64_t now_us);
 
 class Repairs {

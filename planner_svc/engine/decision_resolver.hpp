@@ -28,8 +28,9 @@ class DecisionResolver {
  public:
   virtual ~DecisionResolver() = default;
 
-  /// Decides on what is known now. Nothing: the information is not there yet; asked again when something else is observed,
-  /// as long as the decision is open. What it returns is a function of what is given. It may throw: told, and nothing is answered.
+  /// Decides on what is known now. Nothing: the information is not there yet; asked again when something else is
+  /// observed, as long as the decision is open. What it returns is a function of what is given. It may throw: told,
+  /// and nothing is answered.
   virtual std::optional<Resolution> resolve(const OpenDecision& open) const = 0;
 };
 

@@ -121,8 +121,8 @@ class FunctionSource {
   virtual ~FunctionSource() = default;
 
   /// One value per call, in the same order; an answer of another length counts as unavailable for all. All
-  /// calls of a batch belong to one function, ask for one accuracy and assume one state. Returns early, with late for the rest, once `cancelled` returns
-  /// true.
+  /// calls of a batch belong to one function, ask for one accuracy and assume one state. Returns early, with late for
+  /// the rest, once `cancelled` returns true.
   virtual std::vector<FunctionValue> evaluate(std::span<const FunctionCall> calls,
                                               const std::function<bool()>& cancelled) = 0;
 };

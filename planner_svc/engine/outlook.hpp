@@ -1,4 +1,5 @@
-// What an engine that plans all the time expects of its plan, told to operators and to whoever sends data (R110–R115, R127).
+// What an engine that plans all the time expects of its plan,
+// told to operators and to whoever sends data (R110–R115, R127).
 #pragma once
 
 #include <cstdint>
@@ -112,7 +113,8 @@ struct SubwaySite {
   friend bool operator==(const SubwaySite&, const SubwaySite&) = default;
 };
 
-/// Says what chains and data are worth (R113, R115), how the energy goes, and where the science subway map leads (R112).
+/// Says what chains and data are worth (R113, R115), how the energy goes,
+/// and where the science subway map leads (R112).
 struct MissionOutlook {
   std::vector<UtilityRank> ranks{};
   temporal::RankVector received{};         ///< of all data that are on Earth

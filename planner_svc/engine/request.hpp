@@ -87,11 +87,11 @@ struct Request {
   std::uint64_t work = 0;                          ///< budget in evaluations; 0: no bound
   std::size_t memory_bytes = 0;                    ///< budget; 0: no bound
   FunctionsMode functions = FunctionsMode::eager;  ///< which values owners are asked for
-  /// Evaluations that may be spent on better plans once there is one, beside `work`; 0: none. It is the mission's and not on
-  /// the wire: whoever hosts the engine sets it.
+  /// Evaluations that may be spent on better plans once there is one, beside `work`; 0: none. It is the mission's and
+  /// not on the wire: whoever hosts the engine sets it.
   std::uint64_t improvement = kImprovement;
-  /// Ways to search that run side by side, by the engine's own names (R132), and on how many threads; none: as the engine does of itself.
-  /// Likewise the host's to say.
+  /// Ways to search that run side by side, by the engine's own names (R132), and on how many threads; none: as the
+  /// engine does of itself. Likewise the host's to say.
   std::vector<std::string> resolvers{};
   std::size_t threads = 1;
 };

@@ -43,8 +43,8 @@ struct StepStatus {
   std::uint32_t attempt = 0;  ///< counts from 1; 0: no command was sent
 };
 
-/// What a command took and brought, as its owner said when it was completed. The command of an activity's second try, and the second of a
-/// sequence, have attempt 2.
+/// What a command took and brought, as its owner said when it was completed. The command of an activity's second try,
+/// and the second of a sequence, have attempt 2.
 struct CommandResult {
   std::string activity;
   std::uint32_t attempt = 0;
@@ -72,7 +72,8 @@ struct Receipt {
   friend bool operator==(const Receipt&, const Receipt&) = default;
 };
 
-/// What the ground changes of the engine's model, under its key (R83, R118). It is obeyed whole or not at all, between two cycles.
+/// What the ground changes of the engine's model, under its key (R83, R118).
+/// It is obeyed whole or not at all, between two cycles.
 struct ModelChange {
   std::string issuer;
   std::string id;

@@ -27,8 +27,8 @@ class TableFunctions final : public FunctionSource {
   SharedProvenance owner_;
 };
 
-/// Returns what owners said as such a table, by which a call can be made again without them. What has no value otherwise stands in it as
-/// unreachable.
+/// Returns what owners said as such a table, by which a call can be made again without them. What has no value
+/// otherwise stands in it as unreachable.
 pddl::FunctionTables tables_of(std::span<const FunctionUse> uses);
 
 }  // namespace roci::planner::engine

@@ -9,7 +9,8 @@ using temporal::FlexiblePlan, temporal::PlanActivity, temporal::PlanDelta;
 
 namespace {
 
-// Two processes may have given one number to plans of the same activities at other times. An executive may hold starts to one time.
+// Two processes may have given one number to plans of the same activities at other times.
+// An executive may hold starts to one time.
 bool same(const FlexiblePlan& a, const FlexiblePlan& b) {
   const auto alike = [](const PlanActivity& one, const PlanActivity& other) {
     return one.id == other.id && one.commit == other.commit && one.preferred_start == other.preferred_start &&

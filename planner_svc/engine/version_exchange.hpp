@@ -1,4 +1,5 @@
-// What engine and executive know of each other's versions, with messages between them that come late, twice or not at all (R66, R81).
+// What engine and executive know of each other's versions, with messages between them that come late,
+// twice or not at all (R66, R81).
 #pragma once
 
 #include <cstdint>
@@ -11,18 +12,20 @@
 
 namespace roci::planner::engine {
 
-/// Stands between an engine that plans all the time and what is heard of the executive. It sees to it that the engine goes on from the
-/// version that is executed: one that is neither the newest that this engine sent nor known to it already is given to it whole.
+/// Stands between an engine that plans all the time and what is heard of the executive. It sees to it that the engine
+/// goes on from the version that is executed: one that is neither the newest that this engine sent nor known to it
+/// already is given to it whole.
 class VersionExchange {
  public:
-  /// Takes a plan of which the executive tells. Returns whether it is news: none that is known, and not older than the newest receipt.
-  /// Another plan may have the number of one that was sent: a process that died had sent it.
+  /// Takes a plan of which the executive tells. Returns whether it is news: none that is known, and not older than the
+  /// newest receipt. Another plan may have the number of one that was sent: a process that died had sent it.
   bool take(const temporal::FlexiblePlan& executed);
   /// Takes that this number was used.
   void note(std::uint32_t version);
   void hear(const Receipt& receipt);
 
-  /// Returns whether the engine has something to hear of this; a refusal by its own checker is none, since it would ask again and again.
+  /// Returns whether the engine has something to hear of this; a refusal by its own checker is none,
+  /// since it would ask again and again.
   bool has_news() const;
   /// Fills in receipt, executed version and highest number, and takes them as heard.
   void give(StepInputs& inputs);

@@ -224,7 +224,8 @@ std::string why_not_tried(const CheckedMission& mission, const MissionModel& mod
   return "";
 }
 
-// An engine that no planner of the mission has: where programs of its owner fly, only a name that is nearly one of ours.
+// An engine that no planner of the mission has: where programs of its owner fly,
+// only a name that is nearly one of ours.
 void check_engine(const CheckedMission& mission, const CheckedExecutive& executive) {
   const std::string& engine = executive.model.planner.engine;
   std::vector<std::string> known;

@@ -23,8 +23,8 @@ struct UnplannedKind {
   std::string why;
 };
 
-/// A goal kind of which no goal that was tried can be achieved: a finding says why in words of the mission, and this what the
-/// planner itself said.
+/// A goal kind of which no goal that was tried can be achieved: a finding says why in words of the mission, and this
+/// what the planner itself said.
 struct UnachievedKind {
   std::string kind;
   std::string scenario;
@@ -42,8 +42,8 @@ struct DryPlans {
 /// Plans one goal of each kind (those that it names with it), with the mission's engine and budget, from the first
 /// observations of the simulated world; of the scenarios' goals of a kind the first few, until one is planned. Their
 /// windows do not count. A component that is not simulated is taken to be in its first inactive state. A
-/// kind of which none can be planned is a finding at its entry in the mission file, in the words of the mission: the goal with its
-/// arguments, and which owner of a function said what. Goal kinds of missions whose
+/// kind of which none can be planned is a finding at its entry in the mission file, in the words of the mission: the
+/// goal with its arguments, and which owner of a function said what. Goal kinds of missions whose
 /// engine or world is not linked here, or where such a component's first state has arguments, are not tried.
 DryPlans dry_plan(const CheckedMission& mission, const CheckedExecutive& executive, AskedOwners& owners,
                   mission::Findings& findings);

@@ -5,12 +5,12 @@
 
 namespace roci::rehearsal::check {
 
-/// Complains of objects of an executive that lie outside the map: where `site` is read, x and y of an object are metres of the map's
-/// frame. (That the map can be read, and that robots start on it, is told by the readers that fly.)
+/// Complains of objects of an executive that lie outside the map: where `site` is read, x and y of an object are metres
+/// of the map's frame. (That the map can be read, and that robots start on it, is told by the readers that fly.)
 void check_objects_on_map(const CheckedMission& mission, const CheckedExecutive& executive);
 
-/// Complains of goals of a scenario that ask for a place outside the map, unless the scenario expects that a goal is given up, and
-/// warns of rocks and obstacles there, which nobody meets.
+/// Complains of goals of a scenario that ask for a place outside the map, unless the scenario expects that a goal is
+/// given up, and warns of rocks and obstacles there, which nobody meets.
 void check_scenario_on_map(const CheckedMission& mission, const CheckedScenario& scenario,
                            mission::Findings& findings);
 

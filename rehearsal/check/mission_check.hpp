@@ -17,8 +17,8 @@ struct CheckReport {
 };
 
 /// Reads mission.yaml, the files that it names and every scenario (or `scenario` alone), compares what they name with
-/// each other, with the services, the simulated world and the domain, asks the owners of functions, and plans a goal of each
-/// kind. Nothing is planned while something else is wrong. Throws mission::FileError for a scenario that is not
+/// each other, with the services, the simulated world and the domain, asks the owners of functions, and plans a goal of
+/// each kind. Nothing is planned while something else is wrong. Throws mission::FileError for a scenario that is not
 /// there, and services::transport::TransportError as AskedOwners does.
 CheckReport check_mission(const std::filesystem::path& folder, const std::string& scenario = "");
 

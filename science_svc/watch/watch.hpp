@@ -47,8 +47,8 @@ class Watch {
  public:
   explicit Watch(std::vector<Rule> rules) : rules_(std::move(rules)) {}
 
-  /// Takes the newest state of a timeline (empty: what it holds is no state). Returns a wish for each rule whose state it
-  /// has entered: it was in another one before, or was never observed.
+  /// Takes the newest state of a timeline (empty: what it holds is no state). Returns a wish for each rule whose state
+  /// it has entered: it was in another one before, or was never observed.
   std::vector<Wish> observe(const std::string& timeline, const std::string& state);
   /// Whether kTimelines are remembered.
   bool full() const { return states_.size() >= kTimelines; }

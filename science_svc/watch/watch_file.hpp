@@ -6,8 +6,8 @@
 
 namespace roci::science::watch {
 
-/// Reads the section `watch` of mission.yaml; a mission without it watches nothing. Throws mission::FileError with place
-/// and remedy.
+/// Reads the section `watch` of mission.yaml; a mission without it watches nothing. Throws mission::FileError with
+/// place and remedy.
 std::vector<Rule> read_rules(const mission::Entry& mission);
 
 }  // namespace roci::science::watch

@@ -1,9 +1,10 @@
 // The subject name of a service's certificate follows from the service and the vendor alone, so that everybody can work
 // out by himself how the GUIDs of that service's participants begin (guid_prefix.hpp).
 //
-// Of two participants the one with the lower GUID starts the handshake of DDS Security (1.1, 9.3.2.1). Fast DDS 2.9 starts it with a
-// key agreement that Cyclone DDS 0.10 does not take in answer to a certificate with an elliptic curve; the other way round it
-// works. A number in the subject name is therefore counted up until the GUIDs of Cyclone DDS are below those of Fast DDS.
+// Of two participants the one with the lower GUID starts the handshake of DDS Security (1.1, 9.3.2.1). Fast DDS 2.9
+// starts it with a key agreement that Cyclone DDS 0.10 does not take in answer to a certificate with an elliptic curve;
+// the other way round it works. A number in the subject name is therefore counted up until the GUIDs of Cyclone DDS are
+// below those of Fast DDS.
 #pragma once
 
 #include <cstdint>

@@ -27,9 +27,9 @@ class ClockMaster {
   ClockMaster(std::string name, std::vector<std::string> roster,
               std::uint32_t micro_step_cap = kMicroStepCap);
 
-  /// These take what the participants say. Messages of older incarnations or steps change nothing. They return false for what
-  /// finds no room (bounds/limits.hpp): a service that is new beside kPeers or after kRosterLosses deaths, which is not
-  /// admitted; streams that are new beside kCountedStreams, which are not counted.
+  /// These take what the participants say. Messages of older incarnations or steps change nothing. They return false
+  /// for what finds no room (bounds/limits.hpp): a service that is new beside kPeers or after kRosterLosses deaths,
+  /// which is not admitted; streams that are new beside kCountedStreams, which are not counted.
   bool ready(const v1::ClockReady&);
   bool done(const v1::ClockDone&);
   void lost(const std::string& service, std::uint32_t incarnation, const std::string& cause);

@@ -47,8 +47,8 @@ class HoldBackQueue {
 
   /// `key_of` tells the instances of a topic apart. `topic` may name a robot, or kEveryRobot.
   void subscribe(const std::string& topic, Durability, KeyOf key_of);
-  /// False, and the sample is gone, when kHeldBackStreams are known or kHeldBackSamples of its stream wait (bounds/limits.hpp):
-  /// no clock announces so many.
+  /// False, and the sample is gone, when kHeldBackStreams are known or kHeldBackSamples of its stream wait
+  /// (bounds/limits.hpp): no clock announces so many.
   bool add(const std::string& topic, const v1::SampleHeader&, std::shared_ptr<const void> value);
 
   /// True when all is there that the step announces. Senders that are not in its roster are not waited for.

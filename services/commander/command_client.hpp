@@ -1,5 +1,5 @@
-// The kit of whoever commands subsystems and is no planner's executive: sends a command until it is heard, and tells its
-// owner's last word once. The counterpart of services/owner, whose rules on keys and epochs it keeps.
+// The kit of whoever commands subsystems and is no planner's executive: sends a command until it is heard, and tells
+// its owner's last word once. The counterpart of services/owner, whose rules on keys and epochs it keeps.
 #pragma once
 
 #include <cstdint>
@@ -54,8 +54,8 @@ class CommandClient {
 
   /// `on_end` runs on the loop, never within call().
   void call(const Call& what, OnEnd on_end);
-  /// Goes on with a command of an earlier process of this name, by its old key: its end is told as that of call(); if its owner has never
-  /// heard of it, it is sent.
+  /// Goes on with a command of an earlier process of this name, by its old key: its end is told as that of call(); if
+  /// its owner has never heard of it, it is sent.
   void adopt(const Issued& issued, const Call& what, OnEnd on_end);
   /// Asks to end a command early; its end is told as ever. Nothing, if it is not under way.
   void cancel(const std::string& activity, std::uint32_t attempt);

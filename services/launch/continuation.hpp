@@ -24,8 +24,8 @@ struct Continuation {
   std::int64_t epoch_unix_us = 0;             ///< Mission time 0 of the run.
   std::optional<clock::HostAnchor> anchor{};  ///< Of the host, if it has not been started anew since.
   int launchers = 0;                          ///< That have flown the run so far.
-  /// Returns the incarnation before the first one of this launcher: each start of a service in a run has one of its own,
-  /// and no launcher starts one so often.
+  /// Returns the incarnation before the first one of this launcher: each start of a service in a run has one of its
+  /// own, and no launcher starts one so often.
   std::uint32_t incarnations() const { return static_cast<std::uint32_t>(launchers) * 10'000; }
 };
 

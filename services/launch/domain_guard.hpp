@@ -10,8 +10,8 @@ namespace roci::services::launch {
 /// participants of this host or of another one may use it. To be asked before this process opens its transport.
 bool domain_may_be_held(const Options&);
 
-/// Listens for kListen at most with a node that observes the run. Throws std::invalid_argument if another run is heard on
-/// the domain (unless options say that it may be shared), or one of the services to be started, of this very run.
+/// Listens for kListen at most with a node that observes the run. Throws std::invalid_argument if another run is heard
+/// on the domain (unless options say that it may be shared), or one of the services to be started, of this very run.
 void refuse_held_domain(Node&, const Options&);
 
 }  // namespace roci::services::launch

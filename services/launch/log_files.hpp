@@ -11,8 +11,8 @@ inline constexpr std::uintmax_t kLogLimit = 16 << 20;
 
 /// Moves what stands in the log to LOG.1, whose former content is gone, and begins the log anew, once it is larger than
 /// `limit` bytes. Whoever writes to it goes on writing (it must append); a line that comes at that moment may be
-/// missing in both. Without room on the disk for LOG.1 it only begins anew. Returns whether it did; a log that cannot be
-/// read or written is left alone.
+/// missing in both. Without room on the disk for LOG.1 it only begins anew. Returns whether it did; a log that cannot
+/// be read or written is left alone.
 bool bound_log(const std::filesystem::path& log, std::uintmax_t limit = kLogLimit);
 
 }  // namespace roci::services::launch

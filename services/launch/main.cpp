@@ -36,8 +36,8 @@ int become(const std::filesystem::path& name, std::vector<std::string> arguments
   throw std::system_error(errno, std::generic_category(), "cannot start " + program.string());
 }
 
-// Each service of this host, and each start of it, finds the anchor of the first one in the folder that they share. This
-// process does not stay to watch the system clock: one of them does.
+// Each service of this host, and each start of it, finds the anchor of the first one in the folder that they share.
+// This process does not stay to watch the system clock: one of them does.
 void hand_anchor(const std::filesystem::path& folder, std::int64_t epoch_us) {
   if (folder.empty()) return;
   process::make_own_folder(folder);

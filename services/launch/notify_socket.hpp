@@ -12,8 +12,8 @@ namespace roci::services::launch {
 /// Owns a datagram socket.
 class NotifySocket {
  public:
-  /// Binds it to a name in `folder`, where nobody else can fill it if that is this user's alone, or without one (or with
-  /// one of too long a name) to an abstract name of its own. Throws std::system_error.
+  /// Binds it to a name in `folder`, where nobody else can fill it if that is this user's alone, or without one (or
+  /// with one of too long a name) to an abstract name of its own. Throws std::system_error.
   explicit NotifySocket(const std::filesystem::path& folder = {});
   ~NotifySocket();
   NotifySocket(const NotifySocket&) = delete;

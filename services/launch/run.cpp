@@ -150,8 +150,8 @@ void keep_command_line_on(const Options& options, const clock::HostAnchor& ancho
   }
 }
 
-// Who goes on with a run waits for its network as the services of the run would have: they are started again for as long as
-// it is out. The vendor is there, as it flew the run before.
+// Who goes on with a run waits for its network as the services of the run would have: they are started again for as
+// long as it is out. The vendor is there, as it flew the run before.
 std::unique_ptr<transport::Transport> connect_on(const process::Connection& own, const Options& options,
                                                  const std::function<int()>& stop_asked) {
   for (bool told = false;;) {

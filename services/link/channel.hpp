@@ -30,8 +30,8 @@ inline constexpr temporal::Duration kLongestRepetitionPause = std::chrono::secon
 /// So many samples without repetition may wait for a narrow link; more are lost.
 inline constexpr std::size_t kLongestQueue = 4096;
 
-/// So many samples of a direction may be under way, and instances of state topics be known; what comes beyond is lost. At a
-/// light time of twenty minutes that is fifty samples a second.
+/// So many samples of a direction may be under way, and instances of state topics be known; what comes beyond is lost.
+/// At a light time of twenty minutes that is fifty samples a second.
 inline constexpr std::size_t kLongestFlight = 65'536;
 
 /// The light time there and back.

@@ -57,8 +57,8 @@ class ContractCheck {
   /// mismatch to be told.
   Verdict judge(const ContractTopic&, const transport::Guid& remote);
 
-  /// Any thread says that a writer or a reader of another participant was matched on a topic: a mismatch is told although
-  /// no sample may ever come.
+  /// Any thread says that a writer or a reader of another participant was matched on a topic: a mismatch is told
+  /// although no sample may ever come.
   void met(const ContractTopic&, const transport::Guid& remote);
 
   /// Judges what was met, and removes and returns the mismatches that are new since the last call.

@@ -35,8 +35,8 @@ class ContractGate {
   /// Samples that were refused so far, or held back in vain.
   std::uint64_t refused() const { return refused_; }
 
-  /// So many samples of unknown participants are held back, of kHeldBytes together (bounds/limits.hpp); more push out the
-  /// oldest.
+  /// So many samples of unknown participants are held back, of kHeldBytes together (bounds/limits.hpp); more push out
+  /// the oldest.
   static constexpr std::size_t kHeldBack = 1024;
 
   /// The event is written so much wall time after the mismatch was found (and logged): by then the participants that

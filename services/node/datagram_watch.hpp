@@ -1,5 +1,6 @@
-// Tells operators of the datagrams that a node's transport refuses: by the event datagram.refused, for each reason the first
-// time and each time that the count has grown tenfold, so that whoever sends a million bad ones brings about seven.
+// Tells operators of the datagrams that a node's transport refuses: by the event datagram.refused, for each reason the
+// first time and each time that the count has grown tenfold,
+// so that whoever sends a million bad ones brings about seven.
 #pragma once
 
 #include <cstdint>

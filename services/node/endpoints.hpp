@@ -72,8 +72,9 @@ class TopicWriter {
   /// Numbers the next sample; the number counts once write() has succeeded.
   void stamp(v1::SampleHeader&) const;
   bool write(const transport::Payload&);
-  /// Says that the instance has its last word. The newest of these stay for late joiners; older ones are forgotten if the vendor
-  /// can, and nobody is told. Of topics whose past nobody is given each word is the last. False: the key cannot be read.
+  /// Says that the instance has its last word. The newest of these stay for late joiners; older ones are forgotten if
+  /// the vendor can, and nobody is told. Of topics whose past nobody is given each word is the last.
+  /// False: the key cannot be read.
   bool finish(const transport::Payload&);
 
   /// What a micro-step has no room for is written again in the next by whoever writes here, so nobody is told.

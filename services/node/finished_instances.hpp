@@ -1,5 +1,5 @@
-// The instances of one keyed topic that have their last word, and when their writer forgets them: a writer that runs for
-// years keeps the last words of the newest ones alone. Pure.
+// The instances of one keyed topic that have their last word, and when their writer forgets them: a writer that runs
+// for years keeps the last words of the newest ones alone. Pure.
 #pragma once
 
 #include <cstddef>
@@ -14,8 +14,8 @@
 namespace roci::services::node {
 
 /// Guarantees: the newest `kept` finished instances stay, so the newest sample of the stream always does; and none goes
-/// before `rest` turns of its writer have passed since its last sample. Under the simulated clock two turns are enough: a
-/// receiver has taken the samples of micro-step k before those of k + 2 can be written.
+/// before `rest` turns of its writer have passed since its last sample. Under the simulated clock two turns are enough:
+/// a receiver has taken the samples of micro-step k before those of k + 2 can be written.
 class FinishedInstances {
  public:
   using Key = std::string;  ///< The serialized key.

@@ -35,8 +35,8 @@ class Inbox {
     bool stop = false;     ///< It stays true once asked for.
   };
 
-  /// False, and the sample is gone, when kInboxSamples of its topic wait already, or more than `room` bytes would: the loop
-  /// is slower than its peers, or somebody floods the topic. Other topics are not touched by it.
+  /// False, and the sample is gone, when kInboxSamples of its topic wait already, or more than `room` bytes would: the
+  /// loop is slower than its peers, or somebody floods the topic. Other topics are not touched by it.
   bool push(Arrival, std::size_t room);
   void push(WorkResult);
   void matched();

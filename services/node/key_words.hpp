@@ -12,8 +12,8 @@ inline std::string words_of(std::initializer_list<std::string> parts) {
   return out;
 }
 
-/// The members that are the key of a type of the contract, in its order, with a space between; empty for a type that has none of
-/// those keys.
+/// The members that are the key of a type of the contract, in its order, with a space between; empty for a type that
+/// has none of those keys.
 template <class T>
 std::string key_words(const T& sample) {
   if constexpr (requires { sample.commander(), sample.epoch(), sample.activity(), sample.attempt(); })

@@ -22,8 +22,8 @@ class Loop {
   virtual void run() = 0;
   virtual void spin_once(std::chrono::milliseconds wait) = 0;
   virtual health::PeerState peer(std::string_view service) const = 0;
-  /// Takes a decoded sample of a clocked topic. Null, under the simulated clock: the sample is counted, and no handler sees
-  /// it.
+  /// Takes a decoded sample of a clocked topic. Null, under the simulated clock: the sample is counted, and no handler
+  /// sees it.
   virtual void take_clocked(TopicReader&, const v1::SampleHeader&, std::shared_ptr<const void>) = 0;
   /// Reads the clock on which timers count: now(), but wall time for observers.
   virtual temporal::Time timer_now() const { return now(); }

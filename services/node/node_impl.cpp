@@ -75,8 +75,8 @@ void NodeImpl::read(Arrival&& arrival) {
   loop->take_clocked(input, header, value);
 }
 
-// The header comes early in a sample. Where it could be read the simulated clock counts the sample, without a value: else
-// this node would wait for it for ever.
+// The header comes early in a sample. Where it could be read the simulated clock counts the sample, without a value:
+// else this node would wait for it for ever.
 void NodeImpl::refuse_malformed(TopicReader& input, const Decoded& decoded, const transport::Guid& writer) {
   refusals.note(input.topic.name, Refusal::malformed, writer);
   const Codec& codec = input.topic.codec;

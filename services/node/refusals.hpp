@@ -1,5 +1,6 @@
-// The samples that reached no handler because of what they are, or because there was no room for them: counted by topic and
-// reason, told in the log and by the event sample.refused, the first time and each time that the count has grown tenfold.
+// The samples that reached no handler because of what they are, or because there was no room for them: counted by topic
+// and reason, told in the log and by the event sample.refused,
+// the first time and each time that the count has grown tenfold.
 #pragma once
 
 #include <cstdint>
@@ -32,8 +33,8 @@ class Refusals {
  public:
   using Lookup = std::function<std::optional<transport::Participant>(const transport::Guid&)>;
 
-  /// `lookup` names participants. `prepare` opens the topic of events, `tell` writes one `tell_after_s` of wall time later;
-  /// both are called by turn() alone.
+  /// `lookup` names participants. `prepare` opens the topic of events, `tell` writes one `tell_after_s` of wall time
+  /// later; both are called by turn() alone.
   Refusals(std::string node, Lookup lookup, std::function<void()> prepare,
            std::function<void(const v1::Event&)> tell, double tell_after_s);
 
@@ -46,8 +47,8 @@ class Refusals {
   /// Is called in each turn of the loop: tells what is new.
   void turn(clock::WallTime now);
 
-  /// Live, the event is written so much wall time after the log's line: by then who reads events is found. Under the simulated
-  /// clock who is found later hears it, too.
+  /// Live, the event is written so much wall time after the log's line: by then who reads events is found. Under the
+  /// simulated clock who is found later hears it, too.
   static constexpr double kTellAfterS = 1.5;
 
  private:

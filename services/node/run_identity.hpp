@@ -11,14 +11,15 @@ namespace roci::services::node {
 
 class RunIdentity {
  public:
-  /// `run`: the identity that the launcher gave. With `joins` (observers) an empty one stands for the first run that is heard.
+  /// `run`: the identity that the launcher gave. With `joins` (observers)
+  /// an empty one stands for the first run that is heard.
   RunIdentity(std::string node, std::string run, bool joins);
 
   /// Stamped into every sample that the node writes; empty as long as an observer has heard of none.
   const std::string& name() const { return run_; }
 
-  /// Whether a sample that names `sample_run` is to be obeyed. The first sample of each foreign run is worth a line in the
-  /// log, for at most kForeignRuns of them.
+  /// Whether a sample that names `sample_run` is to be obeyed. The first sample of each foreign run is worth a line in
+  /// the log, for at most kForeignRuns of them.
   bool obeys(const std::string& sample_run, const std::string& topic);
 
   /// Returns the foreign runs that were heard for the first time since the last call, each with the topic.

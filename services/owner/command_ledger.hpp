@@ -104,8 +104,9 @@ class CommandLedger {
   std::vector<LedgerEntry> kept() const;
   /// Before the first request: takes in what an earlier process kept.
   void restore(const LedgerEntry&);
-  /// After the last restore(): takes in that this owner goes on with a command that the earlier process accepted then. Returns
-  /// false if that one never took it, or has ended it, or was taking something else, too: that may have been a stop.
+  /// After the last restore(): takes in that this owner goes on with a command that the earlier process accepted then.
+  /// Returns false if that one never took it, or has ended it, or was taking something else, too:
+  /// that may have been a stop.
   bool resume(const Request&, temporal::Time accepted);
   /// After that: what else the earlier process had not ended has failed with it.
   void end_restored();

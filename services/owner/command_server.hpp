@@ -51,9 +51,9 @@ class CommandServer {
 
   /// Keeps keys, last words and epochs in this file, before anything is done about them, and takes up what an
   /// earlier process of this owner left there: it does not carry out again what that one has begun, and answers
-  /// queries as it would have. What that one had not ended has failed (`owner-restarted`), but for the command that the driver
-  /// resumes. To be called before the loop runs. Returns whether there is such a one. Throws std::runtime_error if the file cannot be
-  /// read or written.
+  /// queries as it would have. What that one had not ended has failed (`owner-restarted`), but for the command that the
+  /// driver resumes. To be called before the loop runs. Returns whether there is such a one. Throws std::runtime_error
+  /// if the file cannot be read or written.
   bool keep_in(const std::filesystem::path& file, const std::optional<Resumed>& resumed = {});
   /// Says the newest word on a command again: the process that said it may have died before anybody heard.
   void say_again(const CommandKey&);

@@ -13,16 +13,17 @@
 
 namespace roci::services::owner {
 
-/// Orders the commands of one commander: by its epoch when it first sent them, and by the plan that they are of. Neither
-/// ever falls for what a commander sends for the first time, so what is at or before a mark that was passed is old.
+/// Orders the commands of one commander: by its epoch when it first sent them, and by the plan that they are of.
+/// Neither ever falls for what a commander sends for the first time,
+/// so what is at or before a mark that was passed is old.
 struct IssueMark {
   std::uint64_t epoch = 0;
   std::uint32_t plan = 0;
   auto operator<=>(const IssueMark&) const = default;
 };
 
-/// Says which ended keys may be forgotten. Guarantees: a key that was forgotten is recognised for good by its mark, so it
-/// is never carried out again; the newest kKept ended keys are not forgotten, nor any of a commander's newest plan.
+/// Says which ended keys may be forgotten. Guarantees: a key that was forgotten is recognised for good by its mark, so
+/// it is never carried out again; the newest kKept ended keys are not forgotten, nor any of a commander's newest plan.
 /// A commander that tells neither epochs nor plans has one mark for everything, and none of its keys is forgotten.
 class Retention {
  public:

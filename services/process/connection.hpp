@@ -52,8 +52,9 @@ Environment process_environment();
 Connection resolve_connection(const ConnectionFlags&, const Environment&,
                               const std::filesystem::path& mission);
 
-/// What a transport is opened with as `service`: in a secure run with its credentials, which are checked here; a certificate that
-/// soon runs out is worth a line in the log. Throws security::KeyError, which is a std::invalid_argument, with the remedy.
+/// What a transport is opened with as `service`: in a secure run with its credentials, which are checked here; a
+/// certificate that soon runs out is worth a line in the log. Throws security::KeyError, which is a
+/// std::invalid_argument, with the remedy.
 transport::TransportOptions admitted(const Connection&, const std::string& service);
 
 /// Turns "a,b,c" into {"a", "b", "c"}; empty parts are left out.

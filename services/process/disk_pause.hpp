@@ -20,8 +20,8 @@ class DiskPause {
   /// The handlers of the node's turns (Node::on_turn) are called, its supervisor's among them.
   explicit DiskPause(Node&);
 
-  /// Waits: 0.1 s the first time, twice as long each further time, at most 1 s. Returns whether it was the first time of
-  /// the row.
+  /// Waits: 0.1 s the first time, twice as long each further time, at most 1 s. Returns whether it was the first time
+  /// of the row.
   bool wait();
   /// Ends the row. Returns how long it took, in seconds.
   double over();

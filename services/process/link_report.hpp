@@ -12,8 +12,8 @@
 namespace roci::services::process {
 
 /// Writes links/<service>.json, if a link of the scenario carried anything to the node and there is a run
-/// folder, and links/<service>.jsonl with a line for each sample that did not arrive at an attempt: what it was, and what is done
-/// about it (docs/links.md). Call it when the node's loop has ended.
+/// folder, and links/<service>.jsonl with a line for each sample that did not arrive at an attempt: what it was, and
+/// what is done about it (docs/links.md). Call it when the node's loop has ended.
 void write_link_report(const Node&, const std::filesystem::path& run_folder);
 
 /// The sum of all reports, by name of the link. What is no report is passed over.

@@ -7,8 +7,9 @@
 
 namespace roci::services::process {
 
-/// Says which service stands in a file that a rehearsal loads, and what it was built with. The file holds code of the SDK, too, so that
-/// who loads it must be of the same build: `contract` is ROCI_ANNOUNCEMENT, `compiler` the version of the compiler.
+/// Says which service stands in a file that a rehearsal loads, and what it was built with. The file holds code of the
+/// SDK, too, so that who loads it must be of the same build: `contract` is ROCI_ANNOUNCEMENT,
+/// `compiler` the version of the compiler.
 struct ServiceProgram {
   const char* contract;
   const char* compiler;
@@ -20,8 +21,8 @@ inline constexpr char kServiceProgramSymbol[] = "roci_service_program";
 
 }  // namespace roci::services::process
 
-/// Stands once in a program, outside of every namespace: ROCI_SERVICE_PROGRAM("drill_svc", borehole::make_service). It is the program's
-/// main(), and what roci-rehearse looks for in NAME.so.
+/// Stands once in a program, outside of every namespace: ROCI_SERVICE_PROGRAM("drill_svc", borehole::make_service). It
+/// is the program's main(), and what roci-rehearse looks for in NAME.so.
 #define ROCI_SERVICE_PROGRAM(name, make)                                                                \
   extern "C" __attribute__((visibility("default")))                                                     \
   const roci::services::process::ServiceProgram roci_service_program;                                   \

@@ -19,8 +19,8 @@ class StopSignals {
   /// Calls `on_stop` for each signal from now on until this object ends or forget() is called; what an earlier watch()
   /// asked for is forgotten.
   void watch(std::function<void()> on_stop);
-  /// When it returns, no call is under way and none will come: what `on_stop` speaks of may end. A signal that comes then
-  /// changes nothing.
+  /// When it returns, no call is under way and none will come: what `on_stop` speaks of may end. A signal that comes
+  /// then changes nothing.
   void forget();
 
  private:

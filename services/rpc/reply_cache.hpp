@@ -26,8 +26,8 @@ class ReplyCache {
   /// Returns true if this request is to be handled, false if it is a duplicate; if it was answered before,
   /// the answer has gone out again.
   bool accept(const Id&);
-  /// Keeps the answer, of `bytes`, for who asks again. Of all answers the newest kCachedReplies are kept, and of these no more
-  /// than kCachedReplyBytes together (bounds/limits.hpp), but always the newest.
+  /// Keeps the answer, of `bytes`, for who asks again. Of all answers the newest kCachedReplies are kept, and of these
+  /// no more than kCachedReplyBytes together (bounds/limits.hpp), but always the newest.
   void answered(const Id&, SendAgain, std::size_t bytes = 0);
 
   /// Requests that were taken and are not answered; PendingReply counts them.

@@ -1,5 +1,5 @@
-// The authority of secure runs: it issues certificates, signs what their owners may do, and takes certificates back. Its keys are in
-// authority/ of the ground's key folder and nowhere else.
+// The authority of secure runs: it issues certificates, signs what their owners may do, and takes certificates back.
+// Its keys are in authority/ of the ground's key folder and nowhere else.
 #pragma once
 
 #include <cstdint>
@@ -16,20 +16,22 @@ namespace roci::services::security {
 
 class Authority {
  public:
-  /// Makes an authority in the folder if there is none, for twenty years from `now_s` on (seconds since 1970). Throws KeyError,
-  /// std::runtime_error.
+  /// Makes an authority in the folder if there is none, for twenty years from `now_s` on (seconds since 1970). Throws
+  /// KeyError, std::runtime_error.
   static Authority make(const std::filesystem::path& folder, std::int64_t now_s);
   /// That of a folder. Throws KeyError where there is none.
   static Authority open(const std::filesystem::path& folder);
 
-  /// Knows from now on what the services of a mission are, and the launcher and the console. A service of that name that is
-  /// known already takes on what this mission says. Throws KeyError for a program that is not ours and has no `rights:`.
+  /// Knows from now on what the services of a mission are, and the launcher and the console. A service of that name
+  /// that is known already takes on what this mission says. Throws KeyError for a program that is not
+  /// ours and has no `rights:`.
   void learn(const mission::ServiceList&);
 
-  /// Gives the service a key, a certificate and permissions for each vendor, those before them stay valid until they run out. Throws
-  /// KeyError if it is not known.
+  /// Gives the service a key, a certificate and permissions for each vendor, those before them stay valid until they
+  /// run out. Throws KeyError if it is not known.
   void renew(const std::string& service, int days, std::int64_t now_s);
-  /// Gives certificates to those known services that have none, and signs the permissions of all anew. Returns the new ones.
+  /// Gives certificates to those known services that have none,
+  /// and signs the permissions of all anew. Returns the new ones.
   std::vector<std::string> issue_missing(int days, std::int64_t now_s);
 
   /// Makes a key folder for another host: keys and certificates of its own for these services, and no authority.

@@ -1,5 +1,5 @@
-// The book of the authority: which services it knows, and which certificates it has issued. It stands in authority/issued.json of the
-// key folder on the ground's machine.
+// The book of the authority: which services it knows, and which certificates it has issued. It stands in
+// authority/issued.json of the key folder on the ground's machine.
 #pragma once
 
 #include <cstdint>

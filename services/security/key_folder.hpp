@@ -30,8 +30,8 @@ std::filesystem::path default_key_folder();
 transport::Credentials files_of(const std::filesystem::path& folder, const std::string& service,
                                 std::string_view vendor);
 
-/// The credentials of a service at a vendor at `now` (in seconds since 1970). Throws KeyError where a file is missing or
-/// damaged, others than its owner may read a private key, the certificate has run out, has been revoked, is not this
+/// The credentials of a service at a vendor at `now` (in seconds since 1970). Throws KeyError where a file is missing
+/// or damaged, others than its owner may read a private key, the certificate has run out, has been revoked, is not this
 /// authority's, or is another service's or vendor's.
 transport::Credentials checked_credentials(const std::filesystem::path& folder, const std::string& service,
                                            std::string_view vendor, std::int64_t now_s);

@@ -87,7 +87,8 @@ std::string state_of(const security::IssuedCertificate& one, bool& holds) {
   return "holds until " + date + (soon ? ", soon; roci-keys renew " + one.service : "");
 }
 
-// The newest certificate of each service, vendor and host counts: those before it are listed only if somebody may still use them.
+// The newest certificate of each service, vendor and host counts:
+// those before it are listed only if somebody may still use them.
 int list(const Line& line) {
   const auto authority = security::Authority::open(folder_of(line));
   const auto& all = authority.issued().certificates;

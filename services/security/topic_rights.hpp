@@ -1,5 +1,5 @@
-// Who may write and who may read which topic in a secure run. The permissions that roci-keys signs are made from this table, and
-// a test holds it against what the services publish and subscribe (tests/unit/services/security).
+// Who may write and who may read which topic in a secure run. The permissions that roci-keys signs are made from this
+// table, and a test holds it against what the services publish and subscribe (tests/unit/services/security).
 #pragma once
 
 #include <optional>

@@ -1,6 +1,6 @@
-// What the authority needs of X.509 (RFC 5280) and S/MIME (RFC 8551), on OpenSSL. Keys are of the curve prime256v1, the one that
-// both DDS vendors take; signatures are ECDSA with SHA-256. All functions throw std::runtime_error with OpenSSL's own
-// words when it refuses.
+// What the authority needs of X.509 (RFC 5280) and S/MIME (RFC 8551), on OpenSSL. Keys are of the curve prime256v1, the
+// one that both DDS vendors take; signatures are ECDSA with SHA-256. All functions throw std::runtime_error with
+// OpenSSL's own words when it refuses.
 #pragma once
 
 #include <openssl/evp.h>

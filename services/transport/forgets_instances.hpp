@@ -6,8 +6,9 @@
 
 namespace roci::services::transport {
 
-/// Is also a base of the writers of inproc and Cyclone DDS. Fast DDS 2.9 cannot: unregistering an instance of a transient-local
-/// writer makes it turn for ever when the last reader confirms it (docs/dds.md), and a disposed one is kept like others.
+/// Is also a base of the writers of inproc and Cyclone DDS. Fast DDS 2.9 cannot: unregistering an instance of a
+/// transient-local writer makes it turn for ever when the last reader confirms it (docs/dds.md),
+/// and a disposed one is kept like others.
 class ForgetsInstances {
  public:
   virtual ~ForgetsInstances() = default;

@@ -111,9 +111,11 @@ struct TransportOptions {
   std::vector<std::string> peers = {"127.0.0.1"};  ///< These hosts are asked for participants, unicast.
   /// The path of a vendor's own XML, which is used instead of the defaults if not empty.
   std::string vendor_xml{};
-  /// With them nothing is said or heard in plain; a transport that cannot do that is not opened. Without them: a plain run.
+  /// With them nothing is said or heard in plain; a transport that cannot do that is not opened.
+  /// Without them: a plain run.
   std::optional<Credentials> credentials{};
-  /// The USER_DATA of the participant; nothing stands for the announcement of this build, which open_transport fills in.
+  /// The USER_DATA of the participant; nothing stands for the announcement of this build,
+  /// which open_transport fills in.
   std::optional<std::string> announcement{};
 };
 

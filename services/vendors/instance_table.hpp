@@ -24,7 +24,8 @@ class InstanceTable {
   /// With kInstances alive a new one is not entered: its samples are read, and its end is not told.
   void introduce(const Key&, const transport::Guid& writer, transport::Payload key_payload);
 
-  /// So many instances of a topic are followed: every goal, timeline and step that the parts above keep, several times over.
+  /// So many instances of a topic are followed: every goal, timeline and step that the parts above
+  /// keep, several times over.
   static constexpr std::size_t kInstances = 65'536;
   /// So many writers of one instance are: a pair of executives, and their earlier starts.
   static constexpr std::size_t kWriters = 256;

@@ -19,7 +19,8 @@ struct OwnedFunction {
   std::string name;
   std::vector<std::string> parameter_types;
   std::string unit;
-  /// Holds what can be asked for; empty: exact values alone. A value of ACCURACY_LOWER_BOUND is never above the exact one.
+  /// Holds what can be asked for; empty: exact values alone. A value of ACCURACY_LOWER_BOUND is
+  /// never above the exact one.
   std::vector<v1::FunctionAccuracy> accuracies{};
   /// Names the timelines whose values it takes into account.
   std::vector<std::string> depends_on{};
@@ -32,7 +33,8 @@ struct FunctionResult {
   double number = 0;  ///< With FUNCTION_VALUE, in the function's unit.
 };
 
-/// It is called with one of the owned functions, as many objects as that has parameters, and an accuracy that it offers.
+/// It is called with one of the owned functions, as many objects as that has parameters,
+/// and an accuracy that it offers.
 using Evaluator = std::function<FunctionResult(const OwnedFunction&, std::span<const v1::PlanObject* const>,
                                                v1::FunctionAccuracy)>;
 
@@ -40,14 +42,14 @@ v1::FunctionOffer function_offer(const std::string& module_name, const std::stri
                                  std::uint64_t model_version, const std::vector<OwnedFunction>& functions);
 
 /// Answers every tuple; unknown functions, wrong arities and indices beyond the request's objects are told as
-/// such without asking `evaluate`. Who asks for an accuracy that a function does not offer is given the exact value, and
-/// the reply says so. Once stopped, the rest is FUNCTION_FAILED.
+/// such without asking `evaluate`. Who asks for an accuracy that a function does not offer is given the exact value,
+/// and the reply says so. Once stopped, the rest is FUNCTION_FAILED.
 v1::FunctionReply answer_batches(const v1::FunctionRequest& request, std::uint64_t model_version,
                                  const std::vector<OwnedFunction>& functions, const Evaluator& evaluate,
                                  const std::stop_token& stop);
 
-/// Says by object, in the owner's words, why tuples with it have no value: "place-1" → "the rover cannot stand there". They
-/// travel in the reply's remote_message, a line "OBJECT: WORDS" each; control characters in them become blanks.
+/// Says by object, in the owner's words, why tuples with it have no value: "place-1" → "the rover cannot stand there".
+/// They travel in the reply's remote_message, a line "OBJECT: WORDS" each; control characters in them become blanks.
 void put_words(v1::FunctionReply& reply, const std::map<std::string, std::string>& words);
 std::map<std::string, std::string> words_of(const v1::FunctionReply& reply);
 

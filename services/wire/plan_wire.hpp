@@ -13,8 +13,8 @@
 
 namespace roci::services::wire {
 
-/// It is thrown for a sample that no conforming sender sends, e.g. an enumerator out of range, or a plan or a condition beyond
-/// the bounds of core/temporal/plan_bounds.hpp.
+/// It is thrown for a sample that no conforming sender sends, e.g. an enumerator out of range, or a plan or a condition
+/// beyond the bounds of core/temporal/plan_bounds.hpp.
 class WireError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

@@ -1,6 +1,6 @@
-// The rigid-body dynamics of an arm that the simulator moves: M(q) q̈ + h(q, q̇) = τ, by the composite-rigid-body algorithm
-// (M) and the recursive Newton-Euler algorithm (h), both with spatial vectors in base coordinates, where the inertias of
-// bodies simply add up (Featherstone, Rigid Body Dynamics Algorithms, 2008, chapters 5 and 6).
+// The rigid-body dynamics of an arm that the simulator moves: M(q) q̈ + h(q, q̇) = τ, by the composite-rigid-body
+// algorithm (M) and the recursive Newton-Euler algorithm (h), both with spatial vectors in base coordinates, where the
+// inertias of bodies simply add up (Featherstone, Rigid Body Dynamics Algorithms, 2008, chapters 5 and 6).
 #pragma once
 
 #include <array>

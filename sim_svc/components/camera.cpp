@@ -17,8 +17,8 @@ using world::Surroundings;
 
 namespace {
 
-// So many numbers an earlier camera drew for the pixels of each image from the stream that durations and sizes come from.
-// They are still passed over, so that a seed goes on giving the same durations.
+// So many numbers an earlier camera drew for the pixels of each image from the stream that durations and sizes come
+// from. They are still passed over, so that a seed goes on giving the same durations.
 constexpr int kFormerDraws = 24 * 16;
 
 }  // namespace

@@ -183,8 +183,8 @@ Ending Drive::finish(Surroundings& around) {
   return Failure{"blocked", "a rock that the map does not show lies on the way (" + rock + ")"};
 }
 
-// Returns whether the drive repairs what stopped it: it looks at the rock and will ask for a way around. A way that was given
-// is somebody else's.
+// Returns whether the drive repairs what stopped it: it looks at the rock and will ask for a way around. A way that was
+// given is somebody else's.
 bool Drive::looks_around(const DriveTrace& trace, const std::string& rock, Surroundings& around) {
   const Time looked = trace.end + temporal::seconds(settings_.look_s);
   if (target_->given || detours_ >= settings_.detours ||
@@ -222,7 +222,8 @@ std::map<std::string, temporal::Value> Drive::results() const {
   return out;
 }
 
-// Marks a circle that begins at the place that was measured and lies ahead of the body, so that it stands outside; returns what the drive ends with.
+// Marks a circle that begins at the place that was measured and lies ahead of the body, so that it stands outside;
+// returns what the drive ends with.
 Failure Drive::mark_soil(const DriveTrace& trace, Surroundings& around) {
   const SoilSensorSettings& sensor = settings_.soil_sensor;
   const NoGo& no_go = *trace.no_go;

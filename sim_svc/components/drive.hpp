@@ -28,8 +28,8 @@ struct DriveSettings {
 /// A way that a command brings has at most so many points.
 inline constexpr std::size_t kGivenPoints = 64;
 
-/// Drives on wheels: drive (to, x, y) asks for a path and follows it; drive (to, way) drives over the points of that text
-/// (core/terrain/way.hpp) instead, asks nobody, and makes no detours. A stop on the way leaves the body at
+/// Drives on wheels: drive (to, x, y) asks for a path and follows it; drive (to, way) drives over the points of that
+/// text (core/terrain/way.hpp) instead, asks nobody, and makes no detours. A stop on the way leaves the body at
 /// the stop place. Before a hidden rock it stands, looks, and asks for a path around (a repair of its own,
 /// R146), as long as there are detours and time left. turn (x, y) turns in place until it heads for that point. In soil that does not bear it the body digs itself in
 /// (`bogged-down`) and drives no more. With a soil sensor it ends `no-go` where another vehicle must not follow, and marks a
@@ -61,8 +61,9 @@ class Drive final : public world::Component, public world::Mobility {
   double energy_j(temporal::Time from, temporal::Time to) const override;
   double peak_power_w() const override { return trace_ ? trace_->peak_power_w : 0; }
   bool moves() const override { return next_change().has_value(); }
-  /// Returns as `detours` how many rocks the drive went around; of a body with wheels also, since the last detour, the deepest
-  /// `sinkage` in soil (m) and the largest `soil_slip`; with a soil sensor `soil_samples`, and the least `soil_margin`.
+  /// Returns as `detours` how many rocks the drive went around; of a body with wheels also, since the last detour, the
+  /// deepest `sinkage` in soil (m) and the largest `soil_slip`; with a soil sensor `soil_samples`,
+  /// and the least `soil_margin`.
   std::map<std::string, temporal::Value> results() const override;
   world::Memory memory() const override;
   void restore(const world::Memory&) override;

@@ -39,7 +39,8 @@ inline WheeledVehicle vehicle_of(const DriveParameters& p) {
   return {p.weight_n, p.wheels, p.wheel_width_m, p.wheel_diameter_m};
 }
 
-/// `bogged`: soil did not bear the body, which digs itself in. `no_go`: its sensor says that another one must not follow.
+/// `bogged`: soil did not bear the body, which digs itself in. `no_go`:
+/// its sensor says that another one must not follow.
 enum class DriveEnd { arrived, blocked, stuck, collision, bogged, no_go };
 
 /// Holds where the body is at one time of a drive.
@@ -72,8 +73,8 @@ inline constexpr temporal::Duration kDriveStep{100000};
 
 /// Integrates the rover along the way-points: point turns, speed by slope, slip by pitch and noise, drift of
 /// the heading, electrical energy. In soil that bears it, a body with wheels slips and pushes by its footing
-/// (terramechanics.hpp) on top; where it does not, the wheels spin in place. `sensor` may be null. The ground has a site; `way` has at least one point; `first` is the index
-/// of the one it heads for.
+/// (terramechanics.hpp) on top; where it does not, the wheels spin in place. `sensor` may be null. The ground has a
+/// site; `way` has at least one point; `first` is the index of the one it heads for.
 DriveTrace simulate_drive(const world::Ground&, const DriveParameters&, temporal::Time start,
                           const world::Pose& from, const std::vector<terrain::Point>& way, std::size_t first,
                           world::RandomStream& noise, SoilSensor* sensor = nullptr);

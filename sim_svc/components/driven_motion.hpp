@@ -1,6 +1,6 @@
-// How an arm with motors, inertia and friction moves along a trajectory (type `dynamic_arm`): a controller that believes
-// one load drives a rigid body that has another, so that durations and energies are what comes of it, not what was
-// planned. It is integrated whole, in steps of its own, so that nothing depends on how time is sliced.
+// How an arm with motors, inertia and friction moves along a trajectory (type `dynamic_arm`): a controller that
+// believes one load drives a rigid body that has another, so that durations and energies are what comes of it, not what
+// was planned. It is integrated whole, in steps of its own, so that nothing depends on how time is sliced.
 #pragma once
 
 #include <cstddef>
@@ -58,8 +58,8 @@ struct DrivenMoment {
 /// Is a whole motion as it happens if nobody interrupts it; moment i holds at i * kArmStep after its start.
 ///
 /// The controller follows the course by PID with a feed-forward from the inverse dynamics of the believed arm (computed
-/// torque in its per-joint form; Siciliano et al., Robotics, 2009, section 8.5), all with saturating motors; it waits on
-/// the course where a joint falls behind or a motor is overloaded (online trajectory time scaling; Dahl and Nielsen,
+/// torque in its per-joint form; Siciliano et al., Robotics, 2009, section 8.5), all with saturating motors; it waits
+/// on the course where a joint falls behind or a motor is overloaded (online trajectory time scaling; Dahl and Nielsen,
 /// "Torque-limited path following by online trajectory time scaling", 1990). The true arm is integrated by the
 /// semi-implicit Euler method with Coulomb friction as a bounded impulse (Stewart and Trinkle, 1996).
 class DrivenMotion {

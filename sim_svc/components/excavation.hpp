@@ -1,4 +1,5 @@
-// Cutting a trench into ice as hard as rock: how deep it is follows from the energy that the cutter has brought into it.
+// Cutting a trench into ice as hard as rock: how deep it is follows from the energy that the
+// cutter has brought into it.
 #pragma once
 
 #include <optional>
@@ -10,7 +11,8 @@ namespace roci::sim::components {
 
 /// Describes the ice of one site.
 struct Ice {
-  /// The energy that cuts a unit of its volume (Teale, "The concept of specific energy in rock drilling", 1965), in the middle.
+  /// The energy that cuts a unit of its volume (Teale, "The concept of specific energy in rock
+  /// drilling", 1965), in the middle.
   double specific_energy_j_m3 = 1e9;
   double layer_m = 0.01;     ///< within a layer it is equally hard
   double layer_noise = 0.1;  ///< standard deviation of the logarithm from layer to layer

@@ -44,9 +44,10 @@ struct GrappleSettings {
   std::map<std::string, ModuleSettings> modules;  ///< each in a slot of its own
 };
 
-/// Is a grapple: localize (slot) gives it a fix on a slot, which is lost when the arm moves; grasp (module, slot) takes a
-/// module out, and place (module, slot) puts it in and latches it; both need a fix on the slot. The arm, if there is one,
-/// rests at the slot's pose meanwhile. A latch that does not close is tried again (R146) as long as there is time left.
+/// Is a grapple: localize (slot) gives it a fix on a slot, which is lost when the arm moves; grasp (module, slot) takes
+/// a module out, and place (module, slot) puts it in and latches it; both need a fix on the slot. The arm, if there is
+/// one, rests at the slot's pose meanwhile. A latch that does not close is tried again (R146)
+/// as long as there is time left.
 class Grapple final : public world::Component,
                       public world::PayloadHolder,
                       public world::BodyInterlock,

@@ -6,8 +6,8 @@
 
 namespace roci::sim::components {
 
-/// Reads the settings of a component of type `grapple` (README.md) with what the scenario's start changes of them. Every
-/// slot has a pose and every module a slot of its own in what it returns. Throws mission::FileError.
+/// Reads the settings of a component of type `grapple` (README.md) with what the scenario's start changes of them.
+/// Every slot has a pose and every module a slot of its own in what it returns. Throws mission::FileError.
 GrappleSettings read_grapple_settings(setup::Settings&);
 
 }  // namespace roci::sim::components

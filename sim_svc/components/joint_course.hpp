@@ -17,8 +17,8 @@ struct CoursePoint {
 };
 
 /// Is a cubic Hermite curve whose slopes are those of the parabolas through three neighbouring points (de Boor, A
-/// Practical Guide to Splines, 1978, chapter IV, "cubic Bessel interpolation"); it rests before its first and behind its
-/// last point.
+/// Practical Guide to Splines, 1978, chapter IV, "cubic Bessel interpolation"); it rests before its first and behind
+/// its last point.
 class JointCourse {
  public:
   /// There must be at least one target, and their times must ascend; of points at the same time the last counts.

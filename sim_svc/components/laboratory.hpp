@@ -1,4 +1,5 @@
-// A laboratory on board, whose instruments look at a sample one after the other and say whether it has a signature of life.
+// A laboratory on board, whose instruments look at a sample one after the other and say whether it
+// has a signature of life.
 #pragma once
 
 #include <cstdint>
@@ -41,9 +42,10 @@ struct LaboratorySettings {
   double positive_content = 1.2;  ///< bytes of what holds a signature, as against what holds none
 };
 
-/// Is a laboratory. It takes analyze (site, target, form) of the sample that a SampleCarrier has brought to its inlet; another
-/// sample, or none, is refused as `no-sample`, and one that it has no truth of as `unknown-sample`; so is an `unknown-form`.
-/// When it ends, the signature is known and the form's products are on board; it fails `data-full` for those without room there.
+/// Is a laboratory. It takes analyze (site, target, form) of the sample that a SampleCarrier has brought to its inlet;
+/// another sample, or none, is refused as `no-sample`, and one that it has no truth of as `unknown-sample`; so is an
+/// `unknown-form`. When it ends, the signature is known and the form's products are on board; it fails `data-full` for
+/// those without room there.
 class Laboratory final : public PhasedComponent {
  public:
   Laboratory(LaboratorySettings, world::RandomStream noise);

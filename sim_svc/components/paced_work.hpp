@@ -5,8 +5,8 @@
 
 namespace roci::sim::components {
 
-/// Says how much of a piece of work is done at any time. A pace below the usual one, until a time, holds for the work under
-/// way and for what is started after it.
+/// Says how much of a piece of work is done at any time. A pace below the usual one, until a time, holds for the work
+/// under way and for what is started after it.
 class PacedWork {
  public:
   /// Starts a piece that takes `work` at the usual pace, in place of the one before.

@@ -24,8 +24,8 @@ struct Phase {
   static Phase warming() { return {Until::warm}; }
 };
 
-/// Runs the phases of one task after another. It holds its zone for work from the begin to the end of a task; without a zone, or
-/// on a robot without heat, everything is warm.
+/// Runs the phases of one task after another. It holds its zone for work from the begin to the end of a task; without a
+/// zone, or on a robot without heat, everything is warm.
 class PhasedTask {
  public:
   /// `zone` is the name of a zone of the robot's body; empty: none.
@@ -36,8 +36,8 @@ class PhasedTask {
 
   bool busy() const { return !phases_.empty(); }
   const std::string& zone() const { return zone_; }
-  /// Begins with the first of the phases, of which there is at least one. Fails `too-cold`, and nothing runs, where the zone
-  /// would never be warm enough.
+  /// Begins with the first of the phases, of which there is at least one. Fails `too-cold`, and nothing runs, where the
+  /// zone would never be warm enough.
   world::Ending begin(std::vector<Phase>, temporal::Time now, world::Body&);
   /// Replaces the running phase and those after it.
   void change_rest(std::vector<Phase>, temporal::Time now, world::Body&);

@@ -46,8 +46,8 @@ class Renderer {
     gain_ = std::min(kMostGain, kMiddleGrey / flat);
   }
 
-  // Returns the light of a column's pixels, from the bottom up. A ray goes on where the one below it has hit, since what
-  // hides the ground from the lower one lies nearer.
+  // Returns the light of a column's pixels, from the bottom up. A ray goes on where the one below it has hit, since
+  // what hides the ground from the lower one lies nearer.
   std::vector<double> column(int index) const {
     std::vector<double> out;
     double start = kNearest;

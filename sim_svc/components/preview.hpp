@@ -19,9 +19,10 @@ struct View {
   double noise = 0.02;   ///< standard deviation of a pixel, as a share of white
 };
 
-/// Renders what a camera on a body sees, as a binary PGM file of 8 bits: rays are marched over the ground (Relief), which
-/// is lit by the sun (Lambert's law, cast shadows, a little light of the sky) and exposed so that flat ground is of middle
-/// grey by day. The image is the same for the same ground, pose, view, time and stream. The ground has a site.
+/// Renders what a camera on a body sees, as a binary PGM file of 8 bits: rays are marched over the ground (Relief),
+/// which is lit by the sun (Lambert's law, cast shadows, a little light of the sky) and exposed so that flat ground is
+/// of middle grey by day. The image is the same for the same ground, pose, view,
+/// time and stream. The ground has a site.
 std::vector<std::uint8_t> render_preview(const world::Ground&, const world::Pose& from, const View&,
                                          temporal::Time at, world::RandomStream noise);
 

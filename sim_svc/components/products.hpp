@@ -21,8 +21,8 @@ struct ProductForm {
   std::vector<double> utility{};  ///< by rank, the highest first; empty: it is not judged on board
 };
 
-/// Reads `trench_{site}: {tier: decisional, bytes: 3e6, bytes_noise: 0.1, utility: [0, 0.3]}` and so on, for a command with these
-/// arguments. Throws mission::FileError with place and remedy.
+/// Reads `trench_{site}: {tier: decisional, bytes: 3e6, bytes_noise: 0.1, utility: [0, 0.3]}` and so on, for a command
+/// with these arguments. Throws mission::FileError with place and remedy.
 std::vector<ProductForm> read_products(const mission::Entry&, const std::string& command,
                                        const std::vector<std::string>& arguments);
 
@@ -30,13 +30,13 @@ std::vector<ProductForm> read_products(const mission::Entry&, const std::string&
 std::map<std::string, std::vector<ProductForm>> read_products_by_command(
     setup::Settings&, const std::vector<world::CommandForm>& commands);
 
-/// Multiplies the sizes by the setting `data_factor`, a number for all tiers or {<tier>: number}, which a scenario's world may give for
-/// all components with products.
+/// Multiplies the sizes by the setting `data_factor`, a number for all tiers or {<tier>: number}, which a scenario's
+/// world may give for all components with products.
 void apply_data_factor(setup::Settings&, std::vector<ProductForm>&);
 
-/// Makes the products of a task at `now` and stores them on board, the more urgent tiers first; each size is drawn from the noise
-/// and multiplied by `content`. Fails `no-store` on a robot without a store, and `data-full`, naming what found no room; the
-/// others are kept.
+/// Makes the products of a task at `now` and stores them on board, the more urgent tiers first; each size is drawn from
+/// the noise and multiplied by `content`. Fails `no-store` on a robot without a store, and `data-full`, naming what
+/// found no room; the others are kept.
 world::Ending make_products(const std::vector<ProductForm>&, const world::TaskKey&,
                             const std::map<std::string, std::string>& arguments, double content,
                             temporal::Time now, world::RandomStream& noise, world::Surroundings&);

@@ -60,8 +60,8 @@ Ending Seismometer::park(const world::TaskKey& key, Time now, Surroundings& arou
   return make_products(settings_.products, key, {}, content, now, noise_, around);
 }
 
-// Each day has quakes of its own, whenever it is recorded: their number is drawn by Poisson (Knuth, "The art of computer programming",
-// 3.4.1), for small averages, and each has its time.
+// Each day has quakes of its own, whenever it is recorded: their number is drawn by Poisson (Knuth, "The art of
+// computer programming", 3.4.1), for small averages, and each has its time.
 double Seismometer::quakes_in(Time from, Time to) const {
   double out = 0;
   const auto first = static_cast<std::int64_t>(to_seconds(from) / kDay_s);

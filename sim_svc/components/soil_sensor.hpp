@@ -51,8 +51,9 @@ struct SoilRecord {
 };
 
 /// Measures along one drive. A wheel bevameter presses and shears under a wheel, a penetrometer presses ahead of it; of
-/// firm ground both say Go. What is measured is the soil's stiffness (k_phi) and, by who shears, its friction, each with
-/// log-normal noise; the verdict is the footing of the vehicle on that soil, on the steepest line of the slope there.
+/// firm ground both say Go. What is measured is the soil's stiffness (k_phi) and, by who shears, its friction, each
+/// with log-normal noise; the verdict is the footing of the vehicle on that soil,
+/// on the steepest line of the slope there.
 class SoilSensor {
  public:
   /// `known` are discs in which a No-Go is no news. All must outlive it.

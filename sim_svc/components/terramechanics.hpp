@@ -31,8 +31,8 @@ inline constexpr double kMostSoilSlip = 0.95;
 ///   resistance  R = k z^(n + 1) / (n + 1)
 ///   thrust      H(s) = (b l c + W tan φ) (1 - K / (s l) (1 - exp(-s l / K))), l the arc of the wheel in the soil
 ///
-/// The slip s solves H(s) = R + W sin(pitch), by bisection; downhill it is 0 where nothing needs to be pushed. Slip does not
-/// deepen the sinkage here, nor does a wheel profit from the rut of the one before.
+/// The slip s solves H(s) = R + W sin(pitch), by bisection; downhill it is 0 where nothing needs to be pushed. Slip
+/// does not deepen the sinkage here, nor does a wheel profit from the rut of the one before.
 /// `pitch` is the climb in the direction of travel and `slope` that of the ground, in rad.
 Footing footing(const world::Soil&, const WheeledVehicle&, double pitch, double slope);
 

@@ -5,8 +5,8 @@
 
 namespace roci::sim::scenario {
 
-// These read stimuli that concern a robot's energy, heat and view (README.md, "Scenarios"). They throw mission::FileError with place
-// and remedy.
+// These read stimuli that concern a robot's energy, heat and view (README.md, "Scenarios"). They throw
+// mission::FileError with place and remedy.
 
 world::EnergyLoss read_energy_loss(const mission::Entry&, const setup::RobotEntry&);
 world::EnergyDrop read_energy_drop(const mission::Entry&, const setup::RobotEntry&);

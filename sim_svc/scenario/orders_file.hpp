@@ -6,8 +6,8 @@
 
 namespace roci::sim::scenario {
 
-/// Reads `set: {issuer, id, robot, timeline, value}`. As `roci order set` reads it: a truth, a number, or the name of a state.
-/// Throws mission::FileError.
+/// Reads `set: {issuer, id, robot, timeline, value}`. As `roci order set` reads it: a truth, a number, or the name of a
+/// state. Throws mission::FileError.
 OrderStimulus read_set(const mission::Entry& entry);
 
 /// Reads `order: {issuer, id, robot, kind, …}`, with the arguments of the kind. Throws mission::FileError.

@@ -5,9 +5,9 @@
 
 namespace roci::sim::scenario {
 
-/// Reads `soils`, `soil_areas` and `scattered_soil` of a section `surface` (README.md). A soil of a name that is known stands in
-/// place of that one; the two lists are replaced as a whole. Throws mission::FileError with place and remedy, also for
-/// a soil that nobody described.
+/// Reads `soils`, `soil_areas` and `scattered_soil` of a section `surface` (README.md). A soil of a name that is known
+/// stands in place of that one; the two lists are replaced as a whole. Throws mission::FileError with place and remedy,
+/// also for a soil that nobody described.
 void read_soil(const mission::Entry& surface, world::SoilLayer&);
 
 /// Reads `{soil, x, y, radius}` or `{soil, outline: {polygon}}`; the name is not looked up.

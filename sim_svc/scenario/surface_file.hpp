@@ -4,8 +4,9 @@
 
 namespace roci::sim::scenario {
 
-/// Reads `surface` of a mission's `simulation` or of a scenario's `world` (README.md): how the ground looks and what soil lies where. What it says
-/// stands in place of what `surface` holds; the list `odd` is replaced as a whole. Throws mission::FileError.
+/// Reads `surface` of a mission's `simulation` or of a scenario's `world` (README.md): how the ground looks and what
+/// soil lies where. What it says stands in place of what `surface` holds; the list `odd` is replaced as a whole.
+/// Throws mission::FileError.
 void read_surface(const mission::Entry&, world::Surface& surface);
 
 }  // namespace roci::sim::scenario

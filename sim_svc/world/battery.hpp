@@ -23,7 +23,8 @@ double sunlit_s(const Orbit&, temporal::Time from, temporal::Time to);
 /// Returns the intervals of sunlight that begin before `end`, ascending.
 std::vector<std::pair<temporal::Time, temporal::Time>> sunlight(const Orbit&, temporal::Time end);
 
-/// Describes what tells the charge of a battery: below `below_j` it falls `factor` times as fast as the charge does, but not below
+/// Describes what tells the charge of a battery: below `below_j` it falls `factor` times as fast as the
+/// charge does, but not below
 /// 0. What is there is another matter.
 struct Gauge {
   double below_j = 0;

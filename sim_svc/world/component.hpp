@@ -108,19 +108,19 @@ class Component {
   virtual Ending finish(Surroundings&) = 0;
   /// Returns when it next does something of its own accord, beside any task; nothing while it does not know.
   virtual std::optional<temporal::Time> next_routine() const { return std::nullopt; }
-  /// Does of its own accord what is due. It is called after the tasks at every event of the world, and passes a turn over
-  /// while it is not `able` (out of order, battery empty); afterwards next_routine() lies after `now`.
+  /// Does of its own accord what is due. It is called after the tasks at every event of the world, and passes a turn
+  /// over while it is not `able` (out of order, battery empty); afterwards next_routine() lies after `now`.
   virtual void run_routine(temporal::Time /*now*/, bool /*able*/, Surroundings&) {}
   /// Lets its tasks get on at this share of their usual speed until then; a component that cannot be slowed
   /// (ComponentType::can_be_slowed) does not hear of it.
   virtual void slow_down(double /*pace*/, temporal::Time /*until*/, temporal::Time /*now*/, Surroundings&) {}
-  /// Lets the next success of the command be told without being true: time and energy are used, and nothing else has changed;
-  /// a component that cannot do so (ComponentType::can_be_hollow) does not hear of it.
+  /// Lets the next success of the command be told without being true: time and energy are used, and nothing else has
+  /// changed; a component that cannot do so (ComponentType::can_be_hollow) does not hear of it.
   virtual void hollow_next(const std::string& /*command*/) {}
   /// Takes in which data are to go with which downlink from now on.
   virtual void heed(const DownlinkSchedule&) {}
-  /// Lets data go at this share of the usual rate from now on; a component without a rate (ComponentType::has_rate) does not hear of
-  /// it.
+  /// Lets data go at this share of the usual rate from now on; a component without a rate (ComponentType::has_rate)
+  /// does not hear of it.
   virtual void change_rate(double /*factor*/, temporal::Time /*now*/) {}
   /// Breaks the running task off at once.
   virtual void halt(temporal::Time now, Surroundings&) = 0;
@@ -164,8 +164,8 @@ class Component {
 
   /// Returns how the component would stand if its task were broken off now.
   virtual Memory memory() const { return {}; }
-  /// Takes up what memory() returned in an earlier process, before the first task. Names that it does not know, and values
-  /// that it cannot use, change nothing.
+  /// Takes up what memory() returned in an earlier process, before the first task. Names that it does not know, and
+  /// values that it cannot use, change nothing.
   virtual void restore(const Memory&) {}
 };
 

@@ -11,8 +11,8 @@
 
 namespace roci::sim::world {
 
-/// Says how soon a product must reach the ground (R110): at once, with the next downlink, before the end, with energy left over.
-/// The order is that of idl/command.idl.
+/// Says how soon a product must reach the ground (R110): at once, with the next downlink, before the end, with energy
+/// left over. The order is that of idl/command.idl.
 enum class Tier : std::uint8_t { critical, decisional, mandatory, residual };
 
 /// Returns the tier of that name, or nothing if there is none.
@@ -64,8 +64,8 @@ class DataStore {
   const std::vector<Product>& products() const { return products_; }
   /// Returns the product of that id, or null when there is none whose fate is open.
   const Product* find(std::string_view id) const;
-  /// Sets what became of a product and returns it; one with a final fate is kept no longer. Returns nothing when there is
-  /// none of that id.
+  /// Sets what became of a product and returns it; one with a final fate is kept no longer. Returns nothing when there
+  /// is none of that id.
   std::optional<Product> set_fate(std::string_view id, Fate);
 
   DataMemory memory() const { return {products_, made_}; }

@@ -113,8 +113,8 @@ using Disturbance =
     std::variant<ComponentFault, RockFall, EnergyLoss, GenerationLoss, ComponentMishap, HollowSuccess,
                  EnergyDrop, SurroundingsChange, SuddenHeat, RateChange, ViewBlock, SoilChange>;
 
-/// Returns whether it would be another one if it came twice. What has happened to a robot is part of its world's memory, so
-/// that such a disturbance does not come again when the process that simulates it is started again.
+/// Returns whether it would be another one if it came twice. What has happened to a robot is part of its world's
+/// memory, so that such a disturbance does not come again when the process that simulates it is started again.
 bool adds_up(const Disturbance&);
 
 }  // namespace roci::sim::world

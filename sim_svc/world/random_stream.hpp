@@ -11,8 +11,8 @@ class RandomStream {
  public:
   RandomStream(std::uint64_t seed, std::string_view name);
 
-  /// Returns a stream of its own for a part of what this one serves: it depends on the name and on where this one began, not on
-  /// what was drawn, and drawing from it moves nothing here.
+  /// Returns a stream of its own for a part of what this one serves: it depends on the name and on where this one
+  /// began, not on what was drawn, and drawing from it moves nothing here.
   RandomStream branch(std::string_view name) const;
 
   /// Returns a number in [0, 1) with 53 bits.
@@ -20,8 +20,8 @@ class RandomStream {
   /// Returns a standard normal number by Box and Muller, "A note on the generation of random normal deviates"
   /// (1958).
   double normal();
-  /// Returns a normal number around 1 with that standard deviation, no less than a half: what noise makes of a duration or a
-  /// power.
+  /// Returns a normal number around 1 with that standard deviation, no less than a half: what noise makes of a duration
+  /// or a power.
   double factor(double deviation);
 
  private:

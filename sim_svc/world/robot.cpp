@@ -276,7 +276,8 @@ void Robot::settle(Time from, Time to, Environment& environment, Outputs& out) {
   if (!has_panel(*power_)) leave_behind(out);
 }
 
-// Returns what all heaters use. That of a zone which is held for work counts as used by the task of the first that holds it.
+// Returns what all heaters use. That of a zone which is held for work counts as used by the task of
+// the first that holds it.
 double Robot::heaters_j(Time from, Time to) {
   if (!body_.thermal || to == from) return 0;
   const double factor = power_ ? power_->use_factor : 1;

@@ -1,5 +1,5 @@
-/// How the ground looks to a camera (what lights it, and what on it is unlike the rest; nobody drives differently for it),
-/// and the soil that no camera sees.
+/// How the ground looks to a camera (what lights it, and what on it is unlike the rest; nobody drives differently for
+/// it), and the soil that no camera sees.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -29,8 +29,8 @@ struct Sun {
 /// Returns the direction towards the sun; `up` is below 0 at night.
 Direction toward(const Sun&, temporal::Time at);
 
-/// Says what an odd target is: `bright` a patch of light soil, `dark` a smooth dark stone, `layered` an outcrop in bands,
-/// `spotted` ground with light spherules.
+/// Says what an odd target is: `bright` a patch of light soil, `dark` a smooth dark stone, `layered` an outcrop in
+/// bands, `spotted` ground with light spherules.
 enum class Look : std::uint8_t { bright, dark, layered, spotted };
 
 /// Is a target that is unlike the ground around it, in metres. It is low enough to be driven over.

@@ -48,8 +48,8 @@ double Thermal::goal_k(std::size_t i) const {
   return zones_[i].holders.empty() ? parameters_.zones[i].keep_k : parameters_.zones[i].work_k;
 }
 
-// From the thermostat's temperature the heater gives what holds it. If that is less than nothing, or more than it has, the
-// temperature goes on.
+// From the thermostat's temperature the heater gives what holds it. If that is less than nothing, or more than it has,
+// the temperature goes on.
 Thermal::Leg Thermal::held_at(std::size_t i, double kelvin) const {
   const double loss = loss_w_k(i);
   const double needed = loss * (kelvin - parameters_.surroundings_k) - waste_w(i);

@@ -33,11 +33,11 @@ struct ThermalParameters {
   std::vector<ZoneParameters> zones;
 };
 
-/// Holds the temperatures of a robot's zones as functions of time. A zone loses heat in proportion to how much warmer it is than the
-/// surroundings (Newton), and gains its heater's and the waste heat of what works in it. Its heater brings it to keep_k at full
-/// power, to work_k while anybody holds it for work, and then gives what just holds that. Between changes all is an exponential
-/// in closed form, so that nothing depends on how time is sliced. Times never lie before those of earlier calls. The zones that
-/// are named must be there.
+/// Holds the temperatures of a robot's zones as functions of time. A zone loses heat in proportion to how much warmer
+/// it is than the surroundings (Newton), and gains its heater's and the waste heat of what works in it. Its heater
+/// brings it to keep_k at full power, to work_k while anybody holds it for work, and then gives what just holds that.
+/// Between changes all is an exponential in closed form, so that nothing depends on how time is sliced. Times never lie
+/// before those of earlier calls. The zones that are named must be there.
 class Thermal {
  public:
   explicit Thermal(ThermalParameters);

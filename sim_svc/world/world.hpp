@@ -30,8 +30,8 @@ struct Order {
   Task task;
 };
 
-/// Is what of a world outlives the process that simulates it, as a robot outlives the one that speaks for it. Disturbances
-/// of the ground are no part of it: whoever caused them causes them again.
+/// Is what of a world outlives the process that simulates it, as a robot outlives the one that speaks for it.
+/// Disturbances of the ground are no part of it: whoever caused them causes them again.
 struct WorldMemory {
   temporal::Time at{};
   std::map<std::string, RobotMemory> robots;

@@ -73,6 +73,15 @@ TEST(ArchitectureTest, ACommentDoesNotTearItsDeclaration) {
   EXPECT_THAT(broken_rules({source}), ElementsAre(HasSubstr("stands torn")));
 }
 
+TEST(ArchitectureTest, ACommentFitsTheScreen) {
+  SourceFile source = file("core/temporal/a.cpp", "vector");
+  const auto comment_of = [](std::size_t columns) { return "  // " + std::string(columns - 5, 'x'); };
+  source.lines = {comment_of(120), "  f(" + std::string(200, 'x') + ");"};
+  EXPECT_THAT(broken_rules({source}), IsEmpty());
+  source.lines = {comment_of(121)};
+  EXPECT_THAT(broken_rules({source}), ElementsAre(HasSubstr("wider than 120 columns")));
+}
+
 SourceFile in_namespace(const std::string& path, const std::string& name) {
   return {path, {}, {"namespace " + name + " {", "int f();", "}  // namespace " + name}};
 }

@@ -10,6 +10,7 @@ namespace roci::architecture {
 namespace {
 
 constexpr std::size_t kLongestFile = 600;
+constexpr std::ptrdiff_t kWidestComment = 120;
 const std::vector<std::string> kProcesses = {"planner_svc", "exec_svc",    "pathplan_svc", "dedicated_svc",
                                              "arm_svc",     "science_svc", "sim_svc",      "ground_console"};
 
@@ -150,6 +151,20 @@ void check_size_and_names(const SourceFile& file, Complaints& out) {
   }
 }
 
+// The formatter leaves comments as they are.
+void check_width_of_comments(const SourceFile& file, Complaints& out) {
+  const auto is_comment = [](const std::string& line) {
+    const auto text = line.find_first_not_of(' ');
+    return text != std::string::npos && line.compare(text, 2, "//") == 0;
+  };
+  const auto begins_character = [](char byte) { return (byte & 0xC0) != 0x80; };  // of UTF-8
+  for (const std::string& line : file.lines) {
+    if (!is_comment(line) || std::ranges::count_if(line, begins_character) <= kWidestComment) continue;
+    out.push_back(file.path + ": \"" + line + "\" is wider than " + std::to_string(kWidestComment) +
+                  " columns; wrap the comment");
+  }
+}
+
 // Where the formatter had to break a line for the comment behind it, the comment belongs above.
 void check_torn_comments(const SourceFile& file, Complaints& out) {
   for (const std::string& line : file.lines) {
@@ -202,6 +217,7 @@ std::vector<std::string> broken_rules(const std::vector<SourceFile>& files) {
     check_missions(file, out);
     check_partitions(file, out);
     check_torn_comments(file, out);
+    check_width_of_comments(file, out);
   }
   std::ranges::copy(foreign_namespaces(files), std::back_inserter(out));
   std::ranges::copy(upward_includes(files), std::back_inserter(out));

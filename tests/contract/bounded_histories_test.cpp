@@ -1,5 +1,5 @@
-// What the vendors themselves keep is bounded: of a writer whose reader has stopped, and of a reader whose writer floods it with
-// keys.
+// What the vendors themselves keep is bounded: of a writer whose reader has stopped, and of a reader whose writer
+// floods it with keys.
 #include <gmock/gmock.h>
 #include <signal.h>
 #include <unistd.h>

@@ -1,5 +1,5 @@
-// The utility-driven engine and the executive as services on every transport, beside a robot that obeys: both die and come back,
-// the plan goes on, and what the engine did is told in its order.
+// The utility-driven engine and the executive as services on every transport, beside a robot that obeys: both die and
+// come back, the plan goes on, and what the engine did is told in its order.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -215,7 +215,8 @@ TEST_P(EngineAndExecutive, DoAllThatTheNetworkAsksForAndTellPartsOfCyclesInTheir
   EXPECT_THAT(seen, IsSupersetOf({"commit", "consolidate", "schedule"}));
 }
 
-// Every downlink that is told is one of the plan, versions go up, and what the pictures were is sent under their own ids once they exist.
+// Every downlink that is told is one of the plan, versions go up,
+// and what the pictures were is sent under their own ids once they exist.
 TEST_P(EngineAndExecutive, TellTheDownlinkScheduleAndWhatThePlanIsExpectedToBring) {
   fly();
   ASSERT_FALSE(schedules_.empty());

@@ -70,7 +70,8 @@ TEST_P(FunctionAccuracies, ExactValuesAreAskedForCandidatesAlone) {
   EXPECT_EQ(steps_of(reply.solution()), "go a c");
   EXPECT_EQ(reply.solution().activities()[0].duration_lower_us(), 15'000'000);
   EXPECT_EQ(bounds.size(), 9U);
-  // What was planned, and of the detour that looked shorter once the direct way was known as much as shows that it is not.
+  // What was planned, and of the detour that looked shorter once the direct way was known as much
+  // as shows that it is not.
   EXPECT_EQ(exact, (std::multiset<std::string>{"ab", "ac"}));
   EXPECT_EQ(reply.statistics().function_tuples(), 11U);
   for (const v1::FunctionValueUse& use : reply.solution().function_values())

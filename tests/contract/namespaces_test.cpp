@@ -1,5 +1,5 @@
-// Two hosts: two network namespaces joined by a veth pair. Needs the right to make namespaces (root); without it these are
-// skipped.
+// Two hosts: two network namespaces joined by a veth pair. Needs the right to make namespaces (root); without it these
+// are skipped.
 #include <gmock/gmock.h>
 
 #include "tests/contract/secure/key_ring.hpp"

@@ -1,5 +1,5 @@
-// Requests and replies between our transports and native participants, and between natives of the two vendors: each answered once,
-// large, in the middle of a kill, and beside a stranger who has another type on the topic.
+// Requests and replies between our transports and native participants, and between natives of the two vendors: each
+// answered once, large, in the middle of a kill, and beside a stranger who has another type on the topic.
 #include <gmock/gmock.h>
 
 #include <algorithm>

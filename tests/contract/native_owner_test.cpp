@@ -1,5 +1,5 @@
-// The rules of an owner, asked of the drill of example_service: of the SDK's, and of the native ones that were written by
-// docs/protocol-commands.md. All three give the same answers, on the live clock.
+// The rules of an owner, asked of the drill of example_service: of the SDK's, and of the native ones that were written
+// by docs/protocol-commands.md. All three give the same answers, on the live clock.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -51,8 +51,8 @@ class Commander {
     subscribe(*node_, topics::function_offer, [this](const v1::FunctionOffer& offer) { offer_ = offer; });
   }
 
-  // The words that come until one is about `activity`, as "activity stage code" and what is told of epochs. A late answer
-  // to a greeting is none of them.
+  // The words that come until one is about `activity`, as "activity stage code" and what is told of epochs. A late
+  // answer to a greeting is none of them.
   std::vector<std::string> say(v1::CommandAction action, const std::string& activity, std::uint64_t epoch,
                                const std::string& name = "bore") {
     acks_.clear();

@@ -14,8 +14,8 @@ using ::testing::Pair;
 
 class Attack : public ::testing::TestWithParam<const char*> {};
 
-// A far query and a far command change nothing, a stranger's stop is obeyed and told of, and what the owner has taken is
-// neither forgotten nor done again by the process that follows it.
+// A far query and a far command change nothing, a stranger's stop is obeyed and told of, and what the owner has taken
+// is neither forgotten nor done again by the process that follows it.
 TEST_P(Attack, AnOwnerKeepsItsKeysAndItsEpochOverItsDeath) {
   const Ended ended = attack("owner_under_attack.sh", GetParam());
   EXPECT_THAT(ended.output, Not(HasSubstr("nobody said")));

@@ -1,4 +1,5 @@
-// A whole run under attack, between real processes: other runs and namesakes on its domain, an intruder, a lost journal.
+// A whole run under attack, between real processes: other runs and namesakes on its domain,
+// an intruder, a lost journal.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
-// Map patches that nobody may believe, over each transport: from nobody, off the map, not finite, older than what is known. The
-// path planner of missions/faster's primary refuses them, names them, and plans on with the map as it was.
+// Map patches that nobody may believe, over each transport: from nobody, off the map, not finite, older than what is
+// known. The path planner of missions/faster's primary refuses them, names them, and plans on with the map as it was.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>

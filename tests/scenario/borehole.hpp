@@ -1,4 +1,5 @@
-// Flights of the mission of example_service, whose drill is the SDK's (folder "sdk") or a native participant ("native_c", "native_cpp").
+// Flights of the mission of example_service, whose drill is the SDK's (folder "sdk") or a native participant
+// ("native_c", "native_cpp").
 #pragma once
 
 #include <gtest/gtest.h>

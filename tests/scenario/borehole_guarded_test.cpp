@@ -1,5 +1,5 @@
-// A user's services where more is asked of a run: encrypted, with the rights of the mission's list alone, and with a standby that
-// takes over.
+// A user's services where more is asked of a run: encrypted, with the rights of the mission's list alone, and with a
+// standby that takes over.
 #include <gmock/gmock.h>
 
 #include "tests/scenario/borehole.hpp"
@@ -30,7 +30,8 @@ TEST_P(BoreholeGuarded, FliesEncryptedWithTheRightsOfItsListAlone) {
     EXPECT_THAT(text_of(flown / "logbook.txt"), HasSubstr(heard)) << "the logbook may listen";
 }
 
-// The executive that leads dies when the drill's third acknowledgement has come; the drill serves the one that takes over.
+// The executive that leads dies when the drill's third acknowledgement has come;
+// the drill serves the one that takes over.
 TEST_P(BoreholeGuarded, GoesOnWithItsStandbyWhenTheExecutiveDies) {
   const Flight alone = fly(mission_of("sdk"), GetParam());
   const fs::path flown = run_folder("pair");

@@ -1,5 +1,6 @@
-// The mission of example_service: a user's services on the SDK, and the same drill as native participants in C and C++ that link no
-// code of ours. Whoever reads the command line, the clock and the commands as the pages of docs/ have them gives the same flight.
+// The mission of example_service: a user's services on the SDK, and the same drill as native participants in C and C++
+// that link no code of ours. Whoever reads the command line,
+// the clock and the commands as the pages of docs/ have them gives the same flight.
 #include "tests/scenario/borehole.hpp"
 
 #include <gmock/gmock.h>

@@ -1,5 +1,6 @@
-// The radio between two rovers loses a fifth of what is said over it, or is away for minutes; one executive, on the primary's side,
-// commands both through dedicated executives. The scenarios radio_loss and radio_cut of tests/missions/convoy.
+// The radio between two rovers loses a fifth of what is said over it, or is away for minutes; one executive, on the
+// primary's side, commands both through dedicated executives.
+// The scenarios radio_loss and radio_cut of tests/missions/convoy.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -66,7 +67,8 @@ struct Seeds : ::testing::TestWithParam<const char*> {
   const fs::path folder = made_folder("seeds");
 };
 
-// The target is reached for every seed, no decision has two effects, and nothing is lost without a name for what is done about it.
+// The target is reached for every seed, no decision has two effects,
+// and nothing is lost without a name for what is done about it.
 TEST_P(Seeds, TheTargetIsReachedAndNoDecisionIsCarriedOutTwice) {
   fs::create_directories(folder);
   fs::copy(kMission, folder / "convoy", fs::copy_options::recursive);
@@ -100,8 +102,8 @@ TEST_P(Seeds, TheTargetIsReachedAndNoDecisionIsCarriedOutTwice) {
 INSTANTIATE_TEST_SUITE_P(Scenarios, Seeds, ::testing::Values("radio_loss", "radio_cut"),
                          [](const auto& scenario) { return std::string(scenario.param); });
 
-// Half is lost, and the radio is away again and again, for each seed at other times: where the plan is given up, that is said, and
-// nothing was done twice.
+// Half is lost, and the radio is away again and again, for each seed at other times: where the plan is given up, that
+// is said, and nothing was done twice.
 TEST_F(Seeds, AWorseRadioEndsAsStated) {
   fs::create_directories(folder);
   fs::copy(kMission, folder / "convoy", fs::copy_options::recursive);

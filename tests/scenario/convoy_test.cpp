@@ -56,8 +56,8 @@ TEST_P(Convoy, ARepairIsInvisibleAbove) {
 
 TEST_P(Convoy, WhatCannotBeRepairedGoesUp) { expect_as_listed("escalated"); }
 
-// R149, and trial_stopped of the paper: the running step is stopped by its own executive, both rovers rest, and the plan is launched
-// again without the primary's last step, until the ground lets the robots plan anew.
+// R149, and trial_stopped of the paper: the running step is stopped by its own executive, both rovers rest, and the
+// plan is launched again without the primary's last step, until the ground lets the robots plan anew.
 TEST_P(Convoy, TheGroundStopsThePlanAndLaunchesItAgain) {
   expect_as_listed("trial_stopped");
   EXPECT_THAT(deeds_of(folder_), ElementsAre("drive w1", "press w1", "drive w1", "drive w2", "drive w2",

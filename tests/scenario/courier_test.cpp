@@ -1,4 +1,5 @@
-// A plan that leaves open what comes next, the engine's answer, and the plan that is made of it (R131). By the programs that users start.
+// A plan that leaves open what comes next, the engine's answer, and the plan that is made of it (R131).
+// By the programs that users start.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>

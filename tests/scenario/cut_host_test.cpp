@@ -1,5 +1,5 @@
-// The host of one of the two executives is cut off, or one of them from the robot, which may die while it hands over, as the one may to which goals are handed over. Flown live: who is cut off from the simulated clock has
-// lost the run.
+// The host of one of the two executives is cut off, or one of them from the robot, which may die while it hands over,
+// as the one may to which goals are handed over. Flown live: who is cut off from the simulated clock has lost the run.
 #include <gtest/gtest.h>
 
 #include <string>

@@ -1,5 +1,5 @@
-// The programs that users start, on journals that a disk has damaged: exec_svc starts, keeps the goals that can be read and
-// tells the ground, whatever was done to the file.
+// The programs that users start, on journals that a disk has damaged: exec_svc starts, keeps the goals that can be read
+// and tells the ground, whatever was done to the file.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -1,4 +1,5 @@
-// An owner of commands hangs, and the executive that leads dies with it: silence is no proof of death, so nobody commands until the owner is back.
+// An owner of commands hangs, and the executive that leads dies with it: silence is no proof of death, so nobody
+// commands until the owner is back.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

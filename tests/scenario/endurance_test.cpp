@@ -1,5 +1,5 @@
-// One bad thing is never the end of a mission: each is done to a flight of the programs that users start, on the live clock,
-// and the mission reaches its goals all the same.
+// One bad thing is never the end of a mission: each is done to a flight of the programs that users start, on the live
+// clock, and the mission reaches its goals all the same.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -81,8 +81,8 @@ TEST_F(Endurance, TheSimulatedClockGoesOnWithoutAHelperThatDied) {
   EXPECT_THAT(ended.output, HasSubstr("service.missed: science_svc ended with code 1"));
 }
 
-// Each of the two has a disk of its own. The one that leads cannot write for longer than ten seconds: it is replaced, what was
-// said meanwhile goes to the other, and it joins again when it can write.
+// Each of the two has a disk of its own. The one that leads cannot write for longer than ten seconds: it is replaced,
+// what was said meanwhile goes to the other, and it joins again when it can write.
 TEST_F(Endurance, ALeaderOfAPairWhoseDiskIsFullIsReplaced) {
   const services::process::DomainClaim domain;
   const Ended ended = run("timeout 280 unshare -rm " ROCI_SOURCE_DIR

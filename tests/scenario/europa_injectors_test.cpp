@@ -1,5 +1,6 @@
-// The Europa lander with what MEXEC names as uncertain (section IV.C.3), a flight for each of its five groups, and one for an excavation
-// that comes to nothing: whatever befalls it, the mission comes to its end, and goes on with what is still possible (R117).
+// The Europa lander with what MEXEC names as uncertain (section IV.C.3), a flight for each of its five groups, and one
+// for an excavation that comes to nothing: whatever befalls it, the mission comes to its end,
+// and goes on with what is still possible (R117).
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -83,7 +84,8 @@ TEST_F(EuropaInjectors, HeatAndColdOtherThanForeseen) {
   EXPECT_GE(count("analyze"), 1);
 }
 
-// A store that is soon full, half the rate from the second sample on, and Earth that is hidden when it should be in view.
+// A store that is soon full, half the rate from the second sample on,
+// and Earth that is hidden when it should be in view.
 TEST_F(EuropaInjectors, DataThatFindNoRoomAndNoWay) {
   fly_with("{data_capacity_bytes: 80000000}",
            "  - {at_s: 130000, rate: {component: radio, factor: 0.5}}\n"
@@ -92,7 +94,8 @@ TEST_F(EuropaInjectors, DataThatFindNoRoomAndNoWay) {
   EXPECT_GE(count("analyze"), 1);
 }
 
-// Everything takes longer, a transport succeeds without being true, the laboratory fails and the arm is slow for a time.
+// Everything takes longer, a transport succeeds without being true,
+// the laboratory fails and the arm is slow for a time.
 TEST_F(EuropaInjectors, TasksThatFailAreSlowOrComeToNothing) {
   fly_with("{duration_factor: 1.15}",
            "  - {at_s: 61, hollow: {component: arm, command: transport}}\n"

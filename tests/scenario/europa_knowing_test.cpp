@@ -1,5 +1,6 @@
-// The twelve scenarios of MEXEC, section V.B: what their planner says of them, and twins whose planner learns all that is true at the moment of the
-// surprise (R124). All services of a flight run in this process, with the trace of europa_test.
+// The twelve scenarios of MEXEC, section V.B: what their planner says of them, and twins whose planner learns all that
+// is true at the moment of the surprise (R124). All services of a flight run in this process,
+// with the trace of europa_test.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -84,7 +85,8 @@ class Knowing : public ::testing::TestWithParam<std::string> {
   const fs::path mission_ = folder_ / "europa";
 };
 
-// Each sample that was planned and is not any more is named with the reason, in the cycle from which on it is not. Returns how many were.
+// Each sample that was planned and is not any more is named with the reason,
+// in the cycle from which on it is not. Returns how many were.
 int expect_losses_named(const HeardFlight& flight) {
   int out = 0;
   const auto planned = [](const v1::MissionOutlook& outlook, bool waits_only) {

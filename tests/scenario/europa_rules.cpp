@@ -38,7 +38,8 @@ void check_limits(const std::filesystem::path& run_folder) {
     EXPECT_THAT(numbers(joules), Each(Ge(0)));
 }
 
-// A site that is begun goes on until a negative signature or its last sample of `most`, its targets by their looks (R112).
+// A site that is begun goes on until a negative signature or its last sample of `most`,
+// its targets by their looks (R112).
 void check_subway_map(const Course& course, const std::filesystem::path& run_folder, std::size_t most) {
   const auto signatures = observed(run_folder, "lander.signature.");
   const Words samples = course.samples();

@@ -1,4 +1,5 @@
-// What every flight of the Europa lander keeps, and what success is in each of its scenarios (MEXEC, section V.B, R124).
+// What every flight of the Europa lander keeps, and what success is in each of its scenarios
+// (MEXEC, section V.B, R124).
 #pragma once
 
 #include <filesystem>
@@ -8,9 +9,9 @@
 
 namespace roci::scenario {
 
-/// Holds a flight of that name against what all of them keep and what success is in its scenario. All keep zones within their ranges, a battery
-/// that is never below empty and the subway map; decisional data go with the next downlink; all of every sample that was analyzed is on Earth.
-/// A test fails where one is broken.
+/// Holds a flight of that name against what all of them keep and what success is in its scenario. All keep zones within
+/// their ranges, a battery that is never below empty and the subway map; decisional data go with the next downlink; all
+/// of every sample that was analyzed is on Earth. A test fails where one is broken.
 void check_rules(const std::string& scenario, const Course& course, const std::filesystem::path& run_folder);
 
 }  // namespace roci::scenario

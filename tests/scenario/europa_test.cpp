@@ -1,6 +1,6 @@
-// Both reference missions of the Europa lander, flown by every service as a process of its own: Basic Surface Mission 1, and Reference Surface
-// Mission 1 in the scenarios of MEXEC, section V.B (R107–R109, R112, R114, R124, R127). Built twice: with some scenarios for ./check, with all of
-// them for ./check --full.
+// Both reference missions of the Europa lander, flown by every service as a process of its own: Basic Surface Mission
+// 1, and Reference Surface Mission 1 in the scenarios of MEXEC, section V.B (R107–R109, R112, R114, R124, R127). Built
+// twice: with some scenarios for ./check, with all of them for ./check --full.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>

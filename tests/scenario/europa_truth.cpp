@@ -170,8 +170,8 @@ void tell_of_rate(Network& network, const HeardFlight& flight, double since_s) {
   set_prior(network, {0, index_of(network, "rate_bytes_per_s")}, rate);
 }
 
-// The search knows a downlink by its length in the network: as long as the data take that its chain brings, residual ones aside, and never
-// shorter than it was foreseen.
+// The search knows a downlink by its length in the network: as long as the data take that its chain brings, residual
+// ones aside, and never shorter than it was foreseen.
 void tell_of_lengths(Network& network) {
   const auto values = priors(network);
   const double rate = values[index_of(network, "rate_bytes_per_s")];
@@ -208,7 +208,8 @@ void tell_of_signatures(Network& network, const std::map<std::string, bool>& sig
   }
 }
 
-// The same data may be worth more of one task than of another; what a seismometer has recorded comes with the task that parks it.
+// The same data may be worth more of one task than of another;
+// what a seismometer has recorded comes with the task that parks it.
 const Product* product_of(const Network& network, const Course::Product& data) {
   const Product* out = nullptr;
   for (const Task& task : network.tasks)

@@ -1,5 +1,5 @@
-// What the two rovers do when a service of theirs is missing or dies: the finder of odd things (R128, level E5), and the executive while a decision of
-// the plan is open (R131).
+// What the two rovers do when a service of theirs is missing or dies: the finder of odd things (R128, level E5), and
+// the executive while a decision of the plan is open (R131).
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -64,7 +64,8 @@ TEST_F(FasterFailures, WithoutTheFinderTheTrialIsFlown) {
   expect_arrived(flight.summary);
 }
 
-// It is no part without which the rovers would have to stand: while it is away they go on, and both goals of the ground are achieved.
+// It is no part without which the rovers would have to stand: while it is away they go on,
+// and both goals of the ground are achieved.
 TEST_F(FasterFailures, AFinderThatDiesEndsNothing) {
   const Ended ended =
       run(ROCI_SOURCE_DIR "/tests/scenario/kill_in_flight.sh ${PATH%%:*} " + mission_.string() + " fastdds " +
@@ -88,8 +89,8 @@ struct Death {
 
 class FasterDecisions : public FasterFailures, public ::testing::WithParamInterface<Death> {};
 
-// Whether the primary follows is asked of the engine that has planned it, in each of nine cycles. The executive dies when it has asked; the next one
-// hears one answer to that question, takes it once, and the journal has it.
+// Whether the primary follows is asked of the engine that has planned it, in each of nine cycles. The executive dies
+// when it has asked; the next one hears one answer to that question, takes it once, and the journal has it.
 TEST_P(FasterDecisions, OfTheEngineAreAnsweredOnceAcrossADeath) {
   edit(mission_ / "behaviours.yaml", "        resolver: rule\n        before: follow.start",
        "        resolver: engine\n        before: follow.start");

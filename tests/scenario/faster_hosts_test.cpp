@@ -1,5 +1,6 @@
-// The two rovers of missions/faster and their ground on three hosts (network namespaces), on each vendor and with the rovers on different ones (R128, R129).
-// Built twice: for ./check with the trace of one host, for ./check --full live, with the link between the rovers down for minutes.
+// The two rovers of missions/faster and their ground on three hosts (network namespaces), on each vendor and with the
+// rovers on different ones (R128, R129). Built twice: for ./check with the trace of one host, for ./check --full live,
+// with the link between the rovers down for minutes.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -74,8 +75,8 @@ std::string trace_of_one_host() {
 
 #ifdef ROCI_CUT
 
-// A rover without its vendor's transport is refused before it says a word; when it has it, the mission begins. A second dedicated executive of one name is
-// refused in flight, which goes on as if nobody had tried.
+// A rover without its vendor's transport is refused before it says a word; when it has it, the mission begins. A second
+// dedicated executive of one name is refused in flight, which goes on as if nobody had tried.
 TEST_F(FasterHosts, RefuseAMissingVendorAndASecondOfOneName) {
   auto steps = fly_apart("mixed", kMission, "simulated 200", "refused");
   if (steps.empty()) GTEST_SKIP() << "this user cannot make network namespaces (ip netns add)";
@@ -91,7 +92,8 @@ TEST_F(FasterHosts, RefuseAMissingVendorAndASecondOfOneName) {
   EXPECT_EQ(steps["primary"].printed.value("trace_sha256", ""), trace_of_one_host());
 }
 
-// The mission with its last communication sooner, an hour's wait is no part of this, and at the level that it begins with: at E3 what breaks waits for the ground.
+// The mission with its last communication sooner, an hour's wait is no part of this, and at the level that it begins
+// with: at E3 what breaks waits for the ground.
 fs::path sooner(const fs::path& folder) {
   fs::copy(kMission, folder, fs::copy_options::recursive);
   edit(folder / "mission.yaml", "[3600, 5400]", "[1800, 5400]");
@@ -101,8 +103,8 @@ fs::path sooner(const fs::path& folder) {
   return folder;
 }
 
-// For five minutes, while the scout drives, it and the executive do not hear each other. It ends its drive, the plan breaks, and when the link is back
-// the two go on by a new plan.
+// For five minutes, while the scout drives, it and the executive do not hear each other. It ends its drive, the plan
+// breaks, and when the link is back the two go on by a new plan.
 TEST_P(FasterHostsOf, GoOnAfterMinutesApart) {
   auto steps = fly_apart(GetParam(), sooner(folder_ / "faster").string(), "live 20", "w3 300");
   if (steps.empty()) GTEST_SKIP() << "this user cannot make network namespaces (ip netns add)";
@@ -115,7 +117,8 @@ TEST_P(FasterHostsOf, GoOnAfterMinutesApart) {
   expect_nothing_done_twice();
 }
 
-// Apart for longer than the executive waits for a scout that drove: it says what is missing, and the run ends with both goals open.
+// Apart for longer than the executive waits for a scout that drove: it says what is missing,
+// and the run ends with both goals open.
 TEST_P(FasterHostsOf, EndAsStatedWhenApartForLonger) {
   const fs::path mission = sooner(folder_ / "faster");
   edit(mission / "mission.yaml", "fallback_timeout_s: 600", "fallback_timeout_s: 60");

@@ -35,8 +35,8 @@ double told_s(const v1::CommandAck& answer) {
   return -1;
 }
 
-// How old the scout's newest patch in the primary's map was as each drive of the primary was commanded, in seconds: by the merge that its
-// dedicated executive had an answer to last.
+// How old the scout's newest patch in the primary's map was as each drive of the primary was commanded, in seconds: by
+// the merge that its dedicated executive had an answer to last.
 std::vector<double> map_ages(const HeardFlight& flight) {
   std::vector<double> out;
   for (const v1::Command& command : flight.commands) {

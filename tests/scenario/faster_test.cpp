@@ -1,4 +1,5 @@
-// The two rovers of missions/faster by the programs that users start: the trial, and what its table of scenarios says (R128, R137–R140, R145–R149).
+// The two rovers of missions/faster by the programs that users start: the trial, and what its table of scenarios says
+// (R128, R137–R140, R145–R149).
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -33,8 +34,8 @@ class Faster : public ::testing::TestWithParam<Row> {
   const fs::path folder_ = fs::temp_directory_path() / ("roci_faster_" + std::to_string(::getpid()));
 };
 
-// The events come in the order that the scenario lists, with the same trace on every transport; both rovers end whole, and no primary was in soil that
-// does not bear it.
+// The events come in the order that the scenario lists, with the same trace on every transport; both rovers end whole,
+// and no primary was in soil that does not bear it.
 TEST_P(Faster, FliesAsListed) {
   static std::map<std::string, std::string> traces;
   const auto [scenario, transport] = GetParam();
@@ -72,8 +73,8 @@ class FasterTrial : public ::testing::Test {
   const fs::path folder_ = fs::temp_directory_path() / ("roci_faster_trial_" + std::to_string(::getpid()));
 };
 
-// R139, R147, R148: at each way-point the scout first, then the primary, in one plan that nobody touches. At the trap the scout's drive is repaired
-// within its own time, and the plan's executive sees no more of it than a status.
+// R139, R147, R148: at each way-point the scout first, then the primary, in one plan that nobody touches. At the trap
+// the scout's drive is repaired within its own time, and the plan's executive sees no more of it than a status.
 TEST_F(FasterTrial, TheScoutGoesFirstAndMendsItsDriveBeforeTheTrap) {
   const Flight flight = flown("trial");
   EXPECT_EQ(flight.summary["replans"], 0);

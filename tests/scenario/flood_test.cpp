@@ -1,5 +1,5 @@
-// A stranger floods a flying mission with samples that are well-formed and that nobody wants: no process takes more memory than it
-// may, the mission does what it does without him, and operators are told.
+// A stranger floods a flying mission with samples that are well-formed and that nobody wants: no process takes more
+// memory than it may, the mission does what it does without him, and operators are told.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -41,8 +41,8 @@ TEST(Goals, AGoodOneIsAddedToTheRunningMission) {
   EXPECT_EQ(mission.mission().outcome(), "achieved");
 }
 
-// R76: PDDL says (battery) and (comm-window), owners observe rover.battery and comm.window. The plan that others hear speaks
-// of the latter, so that its projection starts at what was observed.
+// R76: PDDL says (battery) and (comm-window), owners observe rover.battery and comm.window. The plan that others hear
+// speaks of the latter, so that its projection starts at what was observed.
 TEST(Goals, ThePlanForOthersNamesWhatIsObserved) {
   MissionInProcess mission;
   mission.run();
@@ -137,7 +137,8 @@ TEST(Goals, OneThatIsAnAlternativeANegationAndANumberIsPlannedAndSeenAsAchieved)
   EXPECT_EQ(mission.plans().size(), 1U);
 }
 
-// An image may only be taken once the battery is below a bound, which the drive there brings about: legal, and one plan.
+// An image may only be taken once the battery is below a bound,
+// which the drive there brings about: legal, and one plan.
 TEST(Goals, AnUpperBoundThatARunningDriveWillSatisfyBreaksNothing) {
   const std::string reserve = "(at start (>= (battery) (+ (reserve) 1160)))";
   MissionInProcess mission({{"domain.pddl", planetary_file("domain.pddl", reserve,

@@ -29,8 +29,8 @@ struct HeardFlight {
   nlohmann::json summary;             ///< of the only executive
 };
 
-/// Flies the mission to its end, over inproc, with one seed; its trace is that of processes (rehearsal/README.md). A listener is added
-/// to the services of mission.yaml, so the folder is one of the test's own.
+/// Flies the mission to its end, over inproc, with one seed; its trace is that of processes (rehearsal/README.md). A
+/// listener is added to the services of mission.yaml, so the folder is one of the test's own.
 HeardFlight hear_flight(const std::filesystem::path& mission, const std::string& scenario,
                         const std::filesystem::path& run_folder, std::uint64_t seed = 1);
 

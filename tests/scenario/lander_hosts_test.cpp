@@ -1,5 +1,6 @@
-// A lander whose planner and ground stand on hosts of their own (network namespaces), on each vendor and mixed: it flies as on one host, and the ground
-// reaches the planner. Built twice: with the small lander for ./check, with the Europa lander for ./check --full.
+// A lander whose planner and ground stand on hosts of their own (network namespaces), on each vendor and mixed: it
+// flies as on one host, and the ground reaches the planner. Built twice: with the small lander for ./check, with the
+// Europa lander for ./check --full.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>

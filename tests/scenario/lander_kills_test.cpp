@@ -1,4 +1,5 @@
-// A service of the lander dies in flight and is started again: the mission ends as it would have, and nothing is done twice.
+// A service of the lander dies in flight and is started again: the mission ends as it would have,
+// and nothing is done twice.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -65,8 +66,8 @@ TEST_P(LanderKills, AnExecutiveThatDiesGoesOnWithThePlanOfTheEngine) {
   }
 }
 
-// A lander whose digging holds the next one until the ground lets it go. The executive dies between the hold and the ground's second word:
-// what it tells of the first one, when it is there again, releases nothing.
+// A lander whose digging holds the next one until the ground lets it go. The executive dies between the hold and the
+// ground's second word: what it tells of the first one, when it is there again, releases nothing.
 TEST_P(LanderKills, AnExecutiveThatDiesKeepsAHoldThatCameAfterTheGroundsWord) {
   fs::remove_all(mission_);
   fs::copy(ROCI_SOURCE_DIR "/tests/missions/lander", mission_, fs::copy_options::recursive);

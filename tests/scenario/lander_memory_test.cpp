@@ -1,5 +1,5 @@
-// Thirty days of the Europa lander with a battery to match, every service a process of its own: after the first day the planner takes no
-// more memory, and the executive little more (R82).
+// Thirty days of the Europa lander with a battery to match, every service a process of its own: after the first day the
+// planner takes no more memory, and the executive little more (R82).
 #include <gtest/gtest.h>
 #include <unistd.h>
 

@@ -1,5 +1,5 @@
-// A mission whose plans come from a task network (MEXEC): no PDDL, no map. The utility-driven engine plans all the time, through
-// the programs that users start.
+// A mission whose plans come from a task network (MEXEC): no PDDL, no map. The utility-driven engine plans all the
+// time, through the programs that users start.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -1,4 +1,5 @@
-// What the planner of a lander expects of its plan, asked for at the console while it flies: downlinks, utility, energy, subway map.
+// What the planner of a lander expects of its plan, asked for at the console while it flies: downlinks,
+// utility, energy, subway map.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>

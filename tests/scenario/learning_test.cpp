@@ -1,5 +1,5 @@
-// What a lander measures and computes on board is what it foresees from then on, through real processes (R76, R101, R116): of that site and
-// of no other, and beyond the planner's death.
+// What a lander measures and computes on board is what it foresees from then on, through real processes (R76, R101,
+// R116): of that site and of no other, and beyond the planner's death.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -18,8 +18,8 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-// The small lander with more to dig at its sites, where ground is harder and richer than the network says: a dig takes 1,200 s and not
-// 900 s, 200 W and not 150 W, and finds a richness of 0.9 and not 0.3.
+// The small lander with more to dig at its sites, where ground is harder and richer than the network says: a dig takes
+// 1,200 s and not 900 s, 200 W and not 150 W, and finds a richness of 0.9 and not 0.3.
 class Learning : public ::testing::TestWithParam<const char*> {
  protected:
   Learning() {

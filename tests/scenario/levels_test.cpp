@@ -1,5 +1,5 @@
-// Levels of autonomy E1 to E3 and the cycle of SanchoExpress (R128, R129), by the programs that users start. E4 is flown by
-// porter_test.
+// Levels of autonomy E1 to E3 and the cycle of SanchoExpress (R128, R129), by the programs that users start. E4 is
+// flown by porter_test.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -97,8 +97,8 @@ TEST_P(Levels, AtE3AFailureWaitsForTheGround) {
                                          "500 drive gate dock", "520 set_down red"));
 }
 
-// R129: the planner is behind a link; each plan begins at its origin, five seconds after the request, and nothing moves between the
-// plans.
+// R129: the planner is behind a link; each plan begins at its origin, five seconds after the request, and nothing moves
+// between the plans.
 TEST_P(Levels, PlansGoUpAndBeginAtTheirOrigins) {
   expect_as_listed("cycle");
   const std::vector<std::string> deeds = timed_deeds();
@@ -124,8 +124,8 @@ class Idling : public ::testing::TestWithParam<const char*> {
   const fs::path folder_ = fs::temp_directory_path() / ("roci_idling_" + std::to_string(::getpid()));
 };
 
-// R129: idle from the plan's end to the next plan. What the plan has brought about on a timeline that nobody observes is told like an
-// observation (R135), also by an executive that was killed meanwhile and plans on from there.
+// R129: idle from the plan's end to the next plan. What the plan has brought about on a timeline that nobody observes
+// is told like an observation (R135), also by an executive that was killed meanwhile and plans on from there.
 TEST_P(Idling, IsShownWithWhatThePlanHasBroughtAbout) {
   const services::process::DomainClaim domain;
   const Ended ended =

@@ -1,5 +1,5 @@
-// Task networks and parameters from the ground, through real processes: taken whole or not at all, one light time after they were sent,
-// and kept beyond the planner's death (R83, R116, R118).
+// Task networks and parameters from the ground, through real processes: taken whole or not at all, one light time after
+// they were sent, and kept beyond the planner's death (R83, R116, R118).
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -216,7 +216,8 @@ TEST_P(NetworkAndDeath, ADamagedNetworkIsToldAndTheMissionsOwnIsInForce) {
   EXPECT_NE(steps["repeated"].printed.value("stage", ""), "") << "it is an order like any other again";
 }
 
-// What people do, with `roci`: each of the three classes of R118 is one action. Without the value the farewell waits for ever.
+// What people do, with `roci`: each of the three classes of R118 is one action.
+// Without the value the farewell waits for ever.
 TEST_P(NetworkOrders, EachClassOfTheGroundIsOneActionOfTheConsole) {
   edit(mission_ / "mission.yaml", "ground: {", "ground: {values: [lander.go], ");
   edit(mission_ / "network.yaml", "  hand: {kind: atomic}\n",

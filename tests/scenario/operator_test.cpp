@@ -1,5 +1,5 @@
-// What an operator asks of a mission while it flies, typed into roci: plan, timelines, ways, and why the plan is as it is. Two flights
-// serve all of it: they are begun, asked, and ended before their time.
+// What an operator asks of a mission while it flies, typed into roci: plan, timelines, ways, and why the plan is as it
+// is. Two flights serve all of it: they are begun, asked, and ended before their time.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -21,8 +21,8 @@ using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-// The planetary mission whose domain has one more action, which reads and raises a number that nobody gives, and two scenarios: the ground asks for
-// everything, and an obstacle becomes known far from every way.
+// The planetary mission whose domain has one more action, which reads and raises a number that nobody gives, and two
+// scenarios: the ground asks for everything, and an obstacle becomes known far from every way.
 fs::path made_mission(const fs::path& folder) {
   fs::copy(ROCI_SOURCE_DIR "/missions/planetary", folder / "mission", fs::copy_options::recursive);
   edit(folder / "mission/domain.pddl", "(:functions (battery)", "(:functions (warmth) (battery)");
@@ -141,7 +141,8 @@ TEST_F(Operator, SeesTheValuesThatAnActivityStandsOn) {
               HasSubstr("the running plan has no activity 'dance'; roci plan lists them"));
 }
 
-// The obstacle is seen, the map gets its next version, and what was planned on the one before is marked until it is planned anew.
+// The obstacle is seen, the map gets its next version, and what was planned on the one before is marked
+// until it is planned anew.
 TEST_F(Operator, SeesWhichActivitiesStandOnAnOlderMap) {
   EXPECT_THAT(text_of(folder_ / "obstacle/older"), ContainsRegex("drive [^\n]* waiting \\*"));
   EXPECT_THAT(text_of(folder_ / "obstacle/older"), Not(ContainsRegex("take-image[^\n]* waiting \\*")))

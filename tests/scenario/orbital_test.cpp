@@ -1,5 +1,5 @@
-// The orbital mission, flown by every service as a process of its own over each transport (R55, R56). Built twice: with two
-// scenarios for ./check, with all of them for ./check --full.
+// The orbital mission, flown by every service as a process of its own over each transport (R55, R56). Built twice: with
+// two scenarios for ./check, with all of them for ./check --full.
 #include <gtest/gtest.h>
 
 #include <cstdint>

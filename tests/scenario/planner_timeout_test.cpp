@@ -1,5 +1,5 @@
-// A planner that has not found a plan when its time on the wall is over, in flight on the live clock. The mission says how long
-// that is (60 s on a robot); here it is over at once.
+// A planner that has not found a plan when its time on the wall is over, in flight on the live clock. The mission says
+// how long that is (60 s on a robot); here it is over at once.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -40,8 +40,8 @@ class PlannerTimeout : public ::testing::TestWithParam<const char*> {
   const fs::path folder = fs::temp_directory_path() / ("roci_planner_timeout_" + std::to_string(::getpid()));
 };
 
-// The least of the goals goes first, then the hard one fails; the mission ends by itself, with the reason, and long before
-// its time is up.
+// The least of the goals goes first, then the hard one fails; the mission ends by itself, with the reason, and long
+// before its time is up.
 TEST_P(PlannerTimeout, InFlightCostsGoalsWithTheirReasonAndNothingElse) {
   const Ended ended =
       run("timeout 100 roci-launch " + (folder / "mission").string() + " --scenario one --dds " + GetParam() +

@@ -1,4 +1,5 @@
-// A mission whose plans are hierarchical timelines (QuijoteExpress): no PDDL, no network of tasks. By the programs that users start.
+// A mission whose plans are hierarchical timelines (QuijoteExpress): no PDDL, no network of tasks.
+// By the programs that users start.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -80,8 +81,8 @@ class Relay : public ByTimelines {
   }
 };
 
-// The planning request carries the windows of the mission: each communication is planned inside of one, the earliest that fits, in
-// one plan. The executive does not send a message before, though nothing else is in its way.
+// The planning request carries the windows of the mission: each communication is planned inside of one, the earliest
+// that fits, in one plan. The executive does not send a message before, though nothing else is in its way.
 TEST_P(Relay, CommunicationsArePlannedInTheWindowsOfTheGround) {
   expect_as_listed("nominal");
   const auto messages = sent();

@@ -1,4 +1,5 @@
-// Secure flights by the programs that users start: the trace is that of a plain one, and what cannot be secure does not start.
+// Secure flights by the programs that users start: the trace is that of a plain one,
+// and what cannot be secure does not start.
 #include <gmock/gmock.h>
 #include <unistd.h>
 
@@ -37,8 +38,9 @@ class SecureFlight : public ::testing::TestWithParam<std::string> {
 
 TEST_P(SecureFlight, GivesTheTraceOfThePlainOne) { expect_the_plain_trace(kMission, "nominal"); }
 
-// Dedicated executives are owners, and commanders of what they call (`commander`); two rovers are two sets of rights. A scenario may give no orders here,
-// which are the console's alone: the mission's level stands as it is, and nobody's rights are widened.
+// Dedicated executives are owners, and commanders of what they call (`commander`); two rovers are two sets of rights. A
+// scenario may give no orders here, which are the console's alone: the mission's level stands as it is,
+// and nobody's rights are widened.
 TEST_P(SecureFlight, OfTwoRoversGivesTheTraceOfThePlainOne) {
   const fs::path mission =
       fs::temp_directory_path() / ("roci_secure_faster_" + std::to_string(::getpid())) / "faster";
@@ -53,7 +55,8 @@ TEST_P(SecureFlight, OfTwoRoversGivesTheTraceOfThePlainOne) {
 INSTANTIATE_TEST_SUITE_P(Transports, SecureFlight, ::testing::Values("fastdds", "cyclonedds", "mixed"),
                          [](const auto& test) { return test.param; });
 
-// Under the simulated clock nothing goes on without who drives it, secure or not; what was taken in stands in the journal.
+// Under the simulated clock nothing goes on without who drives it, secure or not;
+// what was taken in stands in the journal.
 TEST(SecureClock, AMasterThatFallsSilentEndsTheRunAsAPlainOneDoes) {
   const services::contract::KeyRing ring(kMission);
   ::setenv("ROCI_SECURE", ring.path().c_str(), 1);  // for the consoles, too

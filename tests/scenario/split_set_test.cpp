@@ -1,4 +1,5 @@
-// A network that falls apart so that each executive of a pair hears a part of the owners of commands: nobody leads until it is whole again.
+// A network that falls apart so that each executive of a pair hears a part of the owners of commands: nobody leads
+// until it is whole again.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -20,7 +21,8 @@ using ::testing::HasSubstr;
 
 class SplitSet : public ::testing::TestWithParam<const char*> {
  protected:
-  // The convoy with a standby, and with a third owner: the scout's probe is a component, for which the world itself answers.
+  // The convoy with a standby, and with a third owner: the scout's probe is a component,
+  // for which the world itself answers.
   SplitSet() {
     fs::copy(ROCI_SOURCE_DIR "/tests/missions/convoy", mission_, fs::copy_options::recursive);
     edit(mission_ / "mission.yaml", "{name: exec_svc}", "{name: exec_svc, standby: true}");

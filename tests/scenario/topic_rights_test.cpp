@@ -1,5 +1,5 @@
-// What the services really publish and subscribe against the table of rights: each service of the missions is made on a transport that
-// notes its endpoints, live and simulated.
+// What the services really publish and subscribe against the table of rights: each service of the missions is made on a
+// transport that notes its endpoints, live and simulated.
 #include "services/security/topic_rights.hpp"
 
 #include <gtest/gtest.h>
@@ -128,8 +128,9 @@ Used used_by_program(const std::string& program) {
   return out;
 }
 
-// A right that no service of a program uses is one too many. The engines that plan all the time, pairs, decisions and maps that are told have no part in
-// these missions; an executive of a pair writes the goals anew that it takes over, and an engine that plans all the time reads more.
+// A right that no service of a program uses is one too many. The engines that plan all the time, pairs, decisions and
+// maps that are told have no part in these missions; an executive of a pair writes the goals anew that it takes over,
+// and an engine that plans all the time reads more.
 TEST(TopicRightsOfServices, GiveNoMoreThanWhatIsUsed) {
   const std::set<std::string> elsewhere{"roci/exec/member",     "roci/exec/journal",
                                         "roci/exec/goal",       "roci/lease/request",

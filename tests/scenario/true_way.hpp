@@ -19,8 +19,8 @@ struct TrueLimits {
   sim::components::WheeledVehicle vehicle;
 };
 
-/// A way over the centres of cells that keeps the radius from rocks and from the edge of the map, stays below the slope, and enters
-/// no soil that does not bear the vehicle on the steepest line there.
+/// A way over the centres of cells that keeps the radius from rocks and from the edge of the map, stays below the
+/// slope, and enters no soil that does not bear the vehicle on the steepest line there.
 struct TrueWay {
   double length_m = 0;
   std::vector<terrain::Point> points;
@@ -33,8 +33,8 @@ inline constexpr terrain::Point kYardStart{5, 15}, kYardTarget{20, 15};
 /// The ground of a scenario of a mission folder as it is, soil scattered by the seed.
 sim::world::Ground true_ground(const std::string& mission, const std::string& scenario, std::uint64_t seed);
 
-/// Returns a shortest such way (Dijkstra over the eight neighbours, diagonally only between free cells), or nothing if there is
-/// none. The soil has been scattered. Where an end is not free itself there is no way.
+/// Returns a shortest such way (Dijkstra over the eight neighbours, diagonally only between free cells), or nothing if
+/// there is none. The soil has been scattered. Where an end is not free itself there is no way.
 std::optional<TrueWay> true_way(const sim::world::Ground&, const TrueLimits&, terrain::Point from,
                                 terrain::Point to);
 

@@ -1,5 +1,6 @@
-// Bad input to missions of hierarchical timelines and dedicated executives, by the programs that users start: each is refused, named to whom
-// it concerns, and what does not depend on it goes on. The table says which test shows each sentence of the kind.
+// Bad input to missions of hierarchical timelines and dedicated executives, by the programs that users start: each is
+// refused, named to whom it concerns, and what does not depend on it goes on.
+// The table says which test shows each sentence of the kind.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>

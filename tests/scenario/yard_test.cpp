@@ -1,5 +1,5 @@
-// Two rovers before a sand trap that no map shows: the scout finds it, its map goes to the primary, and both go around; in the
-// same flight without the patch the primary stands before it. No planner and no executive: a script commands.
+// Two rovers before a sand trap that no map shows: the scout finds it, its map goes to the primary, and both go around;
+// in the same flight without the patch the primary stands before it. No planner and no executive: a script commands.
 #include "tests/scenario/yard.hpp"
 
 #include <gmock/gmock.h>
@@ -19,8 +19,8 @@ using testing::Not;
 constexpr int kMostNoGo = 12;  // after which a flight gives up
 constexpr terrain::Point kStart = kYardStart, kTarget = kYardTarget;
 
-// As the paper has it: the way is the primary's, the scout drives it first, from way-point to way-point. After a No-Go the
-// scout's map is told, and there is another way. Where the scout came through, the primary follows.
+// As the paper has it: the way is the primary's, the scout drives it first, from way-point to way-point. After a No-Go
+// the scout's map is told, and there is another way. Where the scout came through, the primary follows.
 class ScoutFirst {
  public:
   std::optional<YardCommand> operator()(const std::vector<YardWord>& words) {
@@ -128,7 +128,8 @@ TEST_P(TwoRoversInTheYard, WithoutThePatchThePrimaryFeelsTheTrapAndStands) {
   EXPECT_THAT(yard.events(), Not(Contains(HasSubstr("primary.path map.patch_taken"))));
 }
 
-// The scout drives what the primary would drive, point by point; what it has found is merged before the primary's next path.
+// The scout drives what the primary would drive, point by point;
+// what it has found is merged before the primary's next path.
 TEST_P(TwoRoversInTheYard, TheScoutDrivesThePrimarysWayAndItsMapIsMerged) {
   const auto script = [](const std::vector<YardWord>& words) -> std::optional<YardCommand> {
     switch (words.size()) {

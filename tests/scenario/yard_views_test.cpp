@@ -1,4 +1,5 @@
-// What an operator sees of the maps of two rovers: the scout finds a trap, and the primary knows of it when it has been told.
+// What an operator sees of the maps of two rovers: the scout finds a trap,
+// and the primary knows of it when it has been told.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
-// What planning costs on the Europa lander: a whole flight in process, the processor time of each cycle and of each event of the executive, and
-// the memory that it took (R79, R82, R100). One JSON object to standard output.
+// What planning costs on the Europa lander: a whole flight in process, the processor time of each cycle and of each
+// event of the executive, and the memory that it took (R79, R82, R100). One JSON object to standard output.
 #include <sys/resource.h>
 #include <time.h>
 

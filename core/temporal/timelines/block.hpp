@@ -1,4 +1,5 @@
-// A part of a timeline: so many changes as fit into a few cache lines, with their sum, so that a long timeline is gone through by blocks.
+// A part of a timeline: so many changes as fit into a few cache lines, with their sum,
+// so that a long timeline is gone through by blocks.
 #pragma once
 
 #include <cstddef>
@@ -38,15 +39,16 @@ class Block {
   void add(const Ask& ask);
   void erase(const Ask& ask);
 
-  /// Cuts off the later part of a block that has grown too large; returns nothing if it has not, or if all happens at one instant.
+  /// Cuts off the later part of a block that has grown too large; returns nothing if it has not,
+  /// or if all happens at one instant.
   std::optional<Block> split();
 
   /// Returns the course at `end` for one at first(). O(1) as long as the block has not changed.
   Course run(const Course& at_first, Micros end) const;
   /// Returns the course at a place in the block, which lies before `end`.
   Course at(const Course& at_first, Position place) const;
-  /// Appends the knots: the first stands at first(), the last at `closing`. That one has only what acts before the instant, unless this is
-  /// the last block, which holds what happens at the end of the timeline, too.
+  /// Appends the knots: the first stands at first(), the last at `closing`. That one has only what acts before the
+  /// instant, unless this is the last block, which holds what happens at the end of the timeline, too.
   void knots(const Course& at_first, Micros closing, std::vector<Knot>& knots) const;
   /// Returns whether summary() holds for this course; O(1), also where all values have shifted.
   bool summarized(const Bounds& range, const Course& at_first, Micros closing) const;

@@ -9,8 +9,9 @@
 
 namespace roci::temporal::timelines {
 
-/// Returns every fault of a definition, each as one sentence that names the timeline; none if it can be used. A range must hold the
-/// initial value; an atomic timeline starts at 0; a state timeline has 1 to 64 states and starts in one of them.
+/// Returns every fault of a definition, each as one sentence that names the timeline; none if it can be used. A range
+/// must hold the initial value; an atomic timeline starts at 0;
+/// a state timeline has 1 to 64 states and starts in one of them.
 std::vector<std::string> check(const Definition& definition);
 
 /// Returns every fault of what a task does and asks, each as one sentence that names the timeline. Permitted are
@@ -19,7 +20,8 @@ std::vector<std::string> check(const Definition& definition);
 /// - on a claimable one: deltas during the task;
 /// - on a cumulative one: deltas, and assignments at the start or at the end;
 /// - on a cumulative-rate one: moreover rates.
-/// An assignment `during` a task says nothing about what comes after it, and is permitted nowhere. The definitions are without fault.
+/// An assignment `during` a task says nothing about what comes after it, and is permitted nowhere.
+/// The definitions are without fault.
 std::vector<std::string> check(std::span<const Definition> definitions, const Footprint& footprint);
 
 /// Returns whether check() finds nothing, without making sentences.

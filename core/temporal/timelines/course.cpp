@@ -8,8 +8,8 @@
 namespace roci::temporal::timelines {
 namespace {
 
-/// Calls `add` with the stretches between the two positions, at which knots stand, in which the bounds are broken; of the last knot only
-/// if `closed`.
+/// Calls `add` with the stretches between the two positions, at which knots stand, in which the bounds are broken; of
+/// the last knot only if `closed`.
 template <class Add>
 void find_broken(std::span<const Knot> knots, bool closed, const Bounds& bounds, Position from, Position to,
                  Add add) {

@@ -38,8 +38,8 @@ struct Definition {
 /// Is the place of a timeline in the list of definitions.
 using Index = std::uint32_t;
 
-/// Says what a task does to a timeline (R72). A delta `during` the task is taken back at its end; a rate `during` it runs from
-/// its start to its end, one at its start or end runs on. An assignment holds until the next.
+/// Says what a task does to a timeline (R72). A delta `during` the task is taken back at its end; a rate `during` it
+/// runs from its start to its end, one at its start or end runs on. An assignment holds until the next.
 struct Impact {
   Index timeline = 0;
   ImpactKind kind = ImpactKind::delta;

@@ -24,8 +24,8 @@ struct Effect {
 Effect effect_on(Index timeline, const Footprint& footprint);
 Bounds bounds_of(const Constraint& constraint);
 
-/// Returns the parts of the stretch from `first` to `last`, in order, in which a value that runs straight from `at_first` with `rate` is
-/// outside of the bounds.
+/// Returns the parts of the stretch from `first` to `last`, in order, in which a value that runs straight from
+/// `at_first` with `rate` is outside of the bounds.
 struct Outside {
   std::array<Stretch, 2> parts{};
   std::size_t count = 0;

@@ -27,7 +27,8 @@ struct Stretch {
 /// Says in what order things act at one instant.
 enum class Turn { ends, starts, observed };
 
-/// Is a change of a timeline at an instant. Of one turn assignments act before deltas, in the order of task and `order`.
+/// Is a change of a timeline at an instant. Of one turn assignments act before deltas,
+/// in the order of task and `order`.
 struct Event {
   Micros time = 0;
   Turn turn = Turn::ends;
@@ -86,8 +87,8 @@ struct Course {
   Reset reset{};
 };
 
-/// Is an instant at which something happens or begins or ends to be asked, with the values there. Until the next one the value runs
-/// straight.
+/// Is an instant at which something happens or begins or ends to be asked, with the values there. Until the next one
+/// the value runs straight.
 struct Knot {
   Micros time = 0;
   Exact before = 0;

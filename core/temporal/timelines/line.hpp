@@ -10,9 +10,9 @@
 
 namespace roci::temporal::timelines {
 
-/// Holds the changes and the asks of one timeline from its past on; what was before is in one value and one rate. Courses and summaries
-/// of blocks are found when they are asked for and kept until something before them changes: so also what is const must not be called
-/// from two threads at once.
+/// Holds the changes and the asks of one timeline from its past on; what was before is in one value and one rate.
+/// Courses and summaries of blocks are found when they are asked for and kept until something before them changes: so
+/// also what is const must not be called from two threads at once.
 class Line {
  public:
   /// Blocks have at most `block` changes and asks, but for those of one instant.
@@ -48,11 +48,12 @@ class Line {
   /// Returns the instant of the next block, or the end of the timeline.
   Micros closing(std::size_t i) const { return i + 1 < blocks_.size() ? blocks_[i + 1].first() : end_; }
   const Summary& summary(std::size_t i) const;
-  /// Returns the knots of one block: the first stands at its beginning, the last at its closing. They hold until the line changes or
-  /// another block is asked for.
+  /// Returns the knots of one block: the first stands at its beginning, the last at its closing. They hold until the
+  /// line changes or another block is asked for.
   std::span<const Knot> knots(std::size_t i) const;
-  /// Replaces `knots` by those of the blocks from `first` to `last`: the first stands at the beginning of the first block, the last at the
-  /// closing of the last one, with what acts before that instant alone unless it is the end of the timeline.
+  /// Replaces `knots` by those of the blocks from `first` to `last`: the first stands at the beginning of the first
+  /// block, the last at the closing of the last one, with what acts before that instant alone unless it is
+  /// the end of the timeline.
   void knots(std::size_t first, std::size_t last, std::vector<Knot>& knots) const;
 
  private:

@@ -25,8 +25,8 @@ struct Hull {
   }
 };
 
-/// Returns by how much a task without assignments changes values from `first` to `last`; `resets`: with changes of others that override
-/// what it has done so far, or a part of it.
+/// Returns by how much a task without assignments changes values from `first` to `last`; `resets`: with changes of
+/// others that override what it has done so far, or a part of it.
 Hull change_within(const Effect& effect, Stretch window, Stretch times, bool resets) {
   Hull hull;
   const Exact running = effect.start.rate * effect.duration;

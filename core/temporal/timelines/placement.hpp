@@ -10,8 +10,8 @@
 
 namespace roci::temporal::timelines {
 
-/// Appends to `bad` the starts within `window` at which the task would break bounds of the timeline's range or of other tasks where they
-/// hold without it, or one of its own constraints (`own`: those on this timeline).
+/// Appends to `bad` the starts within `window` at which the task would break bounds of the timeline's range or of other
+/// tasks where they hold without it, or one of its own constraints (`own`: those on this timeline).
 void find_bad_starts(const Line& line, const Effect& effect, std::span<const Constraint* const> own,
                      Stretch window, std::vector<Stretch>& bad, Scratch& scratch);
 

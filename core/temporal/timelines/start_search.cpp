@@ -139,8 +139,8 @@ void StartSearch::look_at_end(const Bounds& bounds, std::size_t knot, Stretch ti
   });
 }
 
-/// Keeps bounds that hold without the task over `times`, between a knot and the next. The value is greatest and least at the ends of
-/// that stretch, at the start and at the end.
+/// Keeps bounds that hold without the task over `times`, between a knot and the next. The value is greatest and least
+/// at the ends of that stretch, at the start and at the end.
 void StartSearch::keep_inside(const Bounds& bounds, std::size_t knot, Stretch times) {
   look_at_start(bounds, knot, times);
   if (effect_.duration == 0) return;

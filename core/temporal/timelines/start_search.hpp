@@ -17,11 +17,13 @@ struct Scratch {
   std::vector<Stretch> bad;
 };
 
-/// Finds starts of a task at which bounds on a timeline would be broken. What the task does to the value at any place is, between few starts
-/// at which it changes its form, a straight function of the start: bad starts are unions of intervals.
+/// Finds starts of a task at which bounds on a timeline would be broken. What the task does to the value at any place
+/// is, between few starts at which it changes its form, a straight function of the start:
+/// bad starts are unions of intervals.
 class StartSearch {
  public:
-  /// Appends to `bad` the bad starts within `window`. The line does not change meanwhile; what stands in `scratch` is of no account.
+  /// Appends to `bad` the bad starts within `window`. The line does not change meanwhile;
+  /// what stands in `scratch` is of no account.
   StartSearch(const Line& line, const Effect& effect, Stretch window, std::vector<Stretch>& bad,
               Scratch& scratch)
       : line_(line),

@@ -1,5 +1,5 @@
-// The timeline library (MEXEC, section IV.A.2, R71–R76, R82): projects impacts of placed tasks into the future, finds conflicts, and
-// says when a task can be placed without one.
+// The timeline library (MEXEC, section IV.A.2, R71–R76, R82): projects impacts of placed tasks into the future, finds
+// conflicts, and says when a task can be placed without one.
 #pragma once
 
 #include <cstddef>
@@ -16,8 +16,8 @@
 
 namespace roci::temporal::timelines {
 
-/// Is a stretch of time in which a value is out of range or breaks a constraint (R74). Times are whole microseconds: each in the stretch
-/// has a side on which the value is wrong.
+/// Is a stretch of time in which a value is out of range or breaks a constraint (R74). Times are whole microseconds:
+/// each in the stretch has a side on which the value is wrong.
 struct Conflict {
   Index timeline = 0;
   std::optional<TaskId> task{};  ///< whose constraint is broken; none: the value leaves the timeline's range
@@ -34,7 +34,8 @@ struct Interval {
   friend bool operator==(const Interval&, const Interval&) = default;
 };
 
-/// Is a corner of a timeline's course (figure 7); between two of them the value runs straight, and where it jumps two have one time.
+/// Is a corner of a timeline's course (figure 7); between two of them the value runs straight,
+/// and where it jumps two have one time.
 struct Vertex {
   Time time{0};
   double value = 0;
@@ -60,15 +61,16 @@ struct Kept {
   friend bool operator==(const Kept&, const Kept&) = default;
 };
 
-/// Holds the timelines of one plan; a copy stands for itself. The same calls in any order of placements give the same values: at one
-/// instant ends act before starts, assignments before deltas before rates, and among equals the smaller task id first. A task without a
-/// duration acts wholly among the starts: its constraints of phase post are asked behind them, those of maintenance never.
-/// Numbers count to a billionth, and all sums are exact (exact.hpp). What lies before the consolidated past counts as at its edge.
-/// Observations and consolidation forget all marks, and so keep the memory for undo() bounded.
+/// Holds the timelines of one plan; a copy stands for itself. The same calls in any order of placements give the same
+/// values: at one instant ends act before starts, assignments before deltas before rates, and among equals the smaller
+/// task id first. A task without a duration acts wholly among the starts: its constraints of phase post are asked
+/// behind them, those of maintenance never. Numbers count to a billionth, and all sums are exact (exact.hpp). What lies
+/// before the consolidated past counts as at its edge. Observations and consolidation forget all marks, and so keep the
+/// memory for undo() bounded.
 class Timelines {
  public:
-  /// Takes each timeline at its initial value from time `origin` on. Throws std::invalid_argument with the sentences of check() for
-  /// definitions with faults, as an initial value out of range.
+  /// Takes each timeline at its initial value from time `origin` on. Throws std::invalid_argument with the sentences of
+  /// check() for definitions with faults, as an initial value out of range.
   explicit Timelines(std::vector<Definition> definitions, Time origin = Time{0});
   Timelines(std::vector<Definition> definitions, const Extent& extent);
 
@@ -77,46 +79,50 @@ class Timelines {
   Time past() const { return Time{past_}; }
   Kept kept() const;
 
-  /// Places a task whether or not conflicts follow. Throws std::invalid_argument for an id that is placed, for what check() finds in the
-  /// footprint, and for an end beyond that of the timelines; std::length_error for more impacts than the extent permits.
+  /// Places a task whether or not conflicts follow. Throws std::invalid_argument for an id that is placed, for what
+  /// check() finds in the footprint, and for an end beyond that of the timelines; std::length_error for more impacts
+  /// than the extent permits.
   void place(TaskId task, const Footprint& footprint, Time start);
   bool placed(TaskId task) const { return tasks_.contains(task); }
-  /// Moves a placed task to the times that it really has (R76); `end` may be later or earlier than planned. A start that is consolidated
-  /// stays. Throws std::invalid_argument for a task that is not placed and for an end before the start.
+  /// Moves a placed task to the times that it really has (R76); `end` may be later or earlier than planned. A start
+  /// that is consolidated stays. Throws std::invalid_argument for a task that is not placed and for
+  /// an end before the start.
   void move(TaskId task, Time start, Time end);
-  /// Takes a task away as if it had never been placed. Of one whose start is consolidated stays what it did there at its start, while
-  /// what it does `during` itself ends at the edge of the past; to end a task early, move it. Throws std::invalid_argument for a task
-  /// that is not placed.
+  /// Takes a task away as if it had never been placed. Of one whose start is consolidated stays what it did there at
+  /// its start, while what it does `during` itself ends at the edge of the past; to end a task early, move it. Throws
+  /// std::invalid_argument for a task that is not placed.
   void remove(TaskId task);
 
-  /// Anchors a timeline on an observed value: impacts up to `sampled` no longer count, rates of tasks that run then go on (R76). A value
-  /// out of range is a conflict and no error. Returns whether it counts: what was sampled before the consolidated past does not. Throws
-  /// std::invalid_argument for a timeline that is not there, for a value that is no number of at most 1e15 or no state, and for a time
-  /// beyond the end.
+  /// Anchors a timeline on an observed value: impacts up to `sampled` no longer count, rates of tasks that run then go
+  /// on (R76). A value out of range is a conflict and no error. Returns whether it counts: what was sampled before the
+  /// consolidated past does not. Throws std::invalid_argument for a timeline that is not there, for a value that is no
+  /// number of at most 1e15 or no state, and for a time beyond the end.
   bool observe(Index timeline, Time sampled, double value);
-  /// Folds everything before `now` into one value for each timeline and forgets tasks that ended before (R82). O(n) in what is kept. An
-  /// earlier `now` than past() changes nothing.
+  /// Folds everything before `now` into one value for each timeline and forgets tasks that ended before (R82). O(n) in
+  /// what is kept. An earlier `now` than past() changes nothing.
   void consolidate(Time now);
 
-  /// Returns the projected value; before past() the one that the past has left. Throws std::out_of_range for a timeline that is not there.
+  /// Returns the projected value; before past() the one that the past has left.
+  /// Throws std::out_of_range for a timeline that is not there.
   double value(Index timeline, Time at, Side side = Side::after) const;
   /// Returns all conflicts that touch [from, to], by timeline and time.
   std::vector<Conflict> conflicts(Time from, Time to) const;
   /// Returns the course of a timeline between two times, both included (figure 7).
   std::vector<Vertex> trajectory(Index timeline, Time from, Time to) const;
 
-  /// Returns the start times within `window` at which the task causes no conflict that is not there without it, neither of its own
-  /// constraints nor of other tasks' nor of a range; sorted, disjoint, exact to a microsecond. That is: no microsecond and side at which
-  /// bounds that hold without it are broken with it. The task lies between past() and the end of the timelines, and counts as the one
-  /// with the greatest id. Throws std::invalid_argument for what check() finds in the footprint.
+  /// Returns the start times within `window` at which the task causes no conflict that is not there without it, neither
+  /// of its own constraints nor of other tasks' nor of a range; sorted, disjoint, exact to a microsecond. That is: no
+  /// microsecond and side at which bounds that hold without it are broken with it. The task lies between past() and the
+  /// end of the timelines, and counts as the one with the greatest id.
+  /// Throws std::invalid_argument for what check() finds in the footprint.
   std::vector<Interval> valid_starts(const Footprint& footprint, Interval window) const;
   /// Returns the first of them, which is cheaper than all.
   std::optional<Time> first_valid_start(const Footprint& footprint, Interval window) const;
 
   /// Marks a state to which undo() goes back: a search places and takes back many tasks. Marks nest.
   std::size_t mark() const { return forgotten_ + log_.size(); }
-  /// Takes back every place, move and remove since the mark, exactly. Throws std::logic_error when an observation or a consolidation lies
-  /// between.
+  /// Takes back every place, move and remove since the mark, exactly. Throws std::logic_error when an observation or a
+  /// consolidation lies between.
   void undo(std::size_t mark);
 
  private:

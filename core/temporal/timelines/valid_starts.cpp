@@ -15,7 +15,8 @@ struct Touch {
   std::vector<const Constraint*> own;
 };
 
-/// Returns the timelines that a task touches, each once; first those of which it asks something, since they refuse most.
+/// Returns the timelines that a task touches, each once; first those of which it asks
+/// something, since they refuse most.
 std::vector<Touch> touched_by(const Footprint& footprint) {
   std::vector<Touch> touched;
   const auto of = [&](Index timeline) -> Touch& {
@@ -71,8 +72,9 @@ std::vector<Interval> Timelines::valid_starts(const Footprint& footprint, Interv
   return without(starts, bad);
 }
 
-// A start that one timeline refuses is not looked at on the others: so short timelines are asked about the whole window first, and long ones
-// only from there on, in parts of the window that grow. Most tasks find their place in the first, and the last cost no more than the whole.
+// A start that one timeline refuses is not looked at on the others: so short timelines are asked about the whole window
+// first, and long ones only from there on, in parts of the window that grow. Most tasks find their place in the first,
+// and the last cost no more than the whole.
 std::optional<Time> Timelines::first_valid_start(const Footprint& footprint, Interval window) const {
   constexpr std::size_t kShort = 2;  // blocks
   Stretch starts = possible_starts(footprint, window);

@@ -153,8 +153,8 @@ static bool announced(const struct Held* one, const roci_v1_StreamCount* count) 
          is_stream(count->topic, one->input->topic, one->header->robot);
 }
 
-// Everything that the step announces is here. In its first step a service waits for the past of STATE topics alone, and gets the
-// newest of each key; a drill reads none.
+// Everything that the step announces is here. In its first step a service waits for the past of STATE topics alone, and
+// gets the newest of each key; a drill reads none.
 static bool complete(void) {
   for (uint32_t i = 0; joined && i < step->totals._length; ++i) {
     const roci_v1_StreamCount* count = &step->totals._buffer[i];

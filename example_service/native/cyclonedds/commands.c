@@ -116,7 +116,8 @@ void overrun(void) {
                         "the step's time was over before the repair was");
 }
 
-// The epoch of who sends: refused, and told the newest, is one that is over, one that another process has begun, one far ahead.
+// The epoch of who sends: refused, and told the newest, is one that is over,
+// one that another process has begun, one far ahead.
 static bool refused(const roci_v1_Command* request) {
   char reason[256] = "";
   const char* code = NULL;

@@ -138,8 +138,8 @@ bool Clock::hears(const v1::StreamCount& count) const {
   });
 }
 
-// Everything that the step announces is here. In its first step a service waits for the past of state topics alone, and gets the
-// newest of each key; a drill reads none.
+// Everything that the step announces is here. In its first step a service waits for the past of state topics alone, and
+// gets the newest of each key; a drill reads none.
 bool Clock::complete() const {
   return std::ranges::all_of(step_->totals(), [&](const v1::StreamCount& count) {
     if (!joined_ || !hears(count) || !listed(count.sender(), count.incarnation())) return true;

@@ -91,7 +91,8 @@ void Commands::overrun() {
                       {v1::STAGE_FAILED, "repair-overrun", "the step's time was over before the repair was"});
 }
 
-// The epoch of who sends: refused, and told the newest, is one that is over, one that another process has begun, one far ahead.
+// The epoch of who sends: refused, and told the newest, is one that is over,
+// one that another process has begun, one far ahead.
 bool Commands::refused(const v1::Command& request) {
   const auto known = commanders_.find(request.header().sender());
   const std::uint64_t newest = newest_epoch(request.header().sender()), epoch = request.sender_epoch();

@@ -1,4 +1,5 @@
-// The owner's side of commands, as docs/protocol-commands.md has it: each key is taken once, and says how it ended for good.
+// The owner's side of commands, as docs/protocol-commands.md has it: each key is taken once,
+// and says how it ended for good.
 #pragma once
 
 #include <cmath>

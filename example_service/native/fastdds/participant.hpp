@@ -42,8 +42,8 @@ struct Arrival {
   std::function<void()> handle;
 };
 
-// fastddsgen's getKey() hashes the padding between the members of a key as the key before has left it, so that one key has several
-// hashes, and each counts as an instance of its own.
+// fastddsgen's getKey() hashes the padding between the members of a key as the key before has left it, so that one key
+// has several hashes, and each counts as an instance of its own.
 template <class Type>
 class CleanKey : public Type {
  public:

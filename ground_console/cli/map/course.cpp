@@ -73,8 +73,8 @@ void take_plan(std::string_view rest, Course& course) {
   if (origin && course.plans.size() < kChanges) course.plans.emplace_back(*origin, version);
 }
 
-// States of levels above the commands, which nobody observes: activities that nobody was commanded. They hold while they run; of several that run on
-// one timeline the one that began last is shown.
+// States of levels above the commands, which nobody observes: activities that nobody was commanded. They hold while
+// they run; of several that run on one timeline the one that began last is shown.
 class Levels {
  public:
   // "ACTIVITY ATTEMPT action=…".

@@ -33,22 +33,23 @@ struct Course {
 /// Bounds what a picture can show of one run; what comes beyond it is left out.
 inline constexpr std::size_t kRows = 64, kChanges = 2000;
 
-/// Reads the text of `roci-trace print --decisions` (docs/formats.md): observed states and truths, plans, and repairs, which stand at the timeline
-/// that has the owner's name; of a plan of several levels (R130) the states above its commands, from the steps whose activities are named
-/// TIMELINE.STATE and that nobody is commanded. Numbers, and lines that say none of this, are passed over.
+/// Reads the text of `roci-trace print --decisions` (docs/formats.md): observed states and truths, plans, and repairs,
+/// which stand at the timeline that has the owner's name; of a plan of several levels (R130) the states above its
+/// commands, from the steps whose activities are named TIMELINE.STATE and that nobody is commanded. Numbers, and lines
+/// that say none of this, are passed over.
 Course course_of(std::istream& trace);
 
 using Changes = std::vector<std::pair<std::int64_t, std::string>>;  ///< time and value, by time
 
-/// Adds the changes that are still to come, until `until_us`: what was seen last stays until the first of them. A timeline that was not seen
-/// gets a row of its own.
+/// Adds the changes that are still to come, until `until_us`: what was seen last stays until the first of them. A
+/// timeline that was not seen gets a row of its own.
 void add_planned(const std::string& timeline, const Changes& changes, std::int64_t until_us, Course& course);
 
 /// Puts the rows of the team first, then those of each of these robots, each part in its order.
 void sort_by_robot(const std::vector<std::string>& robots, Course& course);
 
-/// Joins rows of one family, "primary.way.w0.w1" and so on, that each say one thing once, to one row "primary.way.*" that shows the newest of
-/// them ("w0.w1 open"). Families of fewer than kFamily stay as they are.
+/// Joins rows of one family, "primary.way.w0.w1" and so on, that each say one thing once, to one row "primary.way.*"
+/// that shows the newest of them ("w0.w1 open"). Families of fewer than kFamily stay as they are.
 void join_families(Course& course);
 inline constexpr std::size_t kFamily = 3;
 

@@ -16,8 +16,8 @@ struct MapArguments {
   std::string run;      ///< folder of a run, or its printed trace; empty: the one that flies
 };
 
-/// Writes the picture, or both, and says so. With a mission alone it draws the mission, without a run; with neither it joins the one that
-/// flies on this machine, and where `connection` says which one, that one. Returns an exit code.
+/// Writes the picture, or both, and says so. With a mission alone it draws the mission, without a run; with neither it
+/// joins the one that flies on this machine, and where `connection` says which one, that one. Returns an exit code.
 int show_map(const MapArguments& arguments, const services::process::ConnectionFlags& connection, bool json);
 
 }  // namespace roci::console::cli::map

@@ -52,8 +52,8 @@ struct MissionMap {
 MissionMap read_mission_map(const std::filesystem::path& folder_or_file);
 
 /// Adds what a run left: `trace` is the text of `roci-trace print` (docs/formats.md). A robot is whatever observes its
-/// `<name>.x` and `<name>.y`; the places of the newest plan are those that its activities name by x and y. Lines that say neither
-/// are passed over.
+/// `<name>.x` and `<name>.y`; the places of the newest plan are those that its activities name by x and y. Lines that
+/// say neither are passed over.
 void add_trace(std::istream& trace, MissionMap& map);
 
 /// Adds the place unless one lies there already; then the name is joined to that one's, if it is another.

@@ -43,13 +43,14 @@ class Picture {
   void mix(int x, int y, Colour colour, double share);
   void fill(const Frame& frame, Colour colour, double share = 1);
   void line(Spot from, Spot to, double width, Colour colour, double share = 1);
-  /// Draws the line in dashes; `done` is the length drawn before, so that dashes go on around corners. Returns the length after it.
+  /// Draws the line in dashes; `done` is the length drawn before, so that dashes go on around corners.
+  /// Returns the length after it.
   double dashes(Spot from, Spot to, double width, double dash, Colour colour, double done = 0);
   void disc(Spot centre, double radius, Colour colour, double share = 1);
   void ring(Spot centre, double radius, double width, Colour colour);
 
-  /// Writes printable ASCII, other bytes as "?", from the upper left corner; a letter is 5 units wide and 7 high, and the next one
-  /// begins 6 units on. `size`: pixels of a unit. With `halo`, the letters stand on a light rim.
+  /// Writes printable ASCII, other bytes as "?", from the upper left corner; a letter is 5 units wide and 7 high, and
+  /// the next one begins 6 units on. `size`: pixels of a unit. With `halo`, the letters stand on a light rim.
   void text(Spot corner, std::string_view words, double size, Colour colour, bool halo = false);
   static double text_width(std::string_view words, double size);
 

@@ -1,4 +1,5 @@
-// A run as one picture: what each robot knows of the ground and where it drove, and under it what timelines showed when.
+// A run as one picture: what each robot knows of the ground and where it drove,
+// and under it what timelines showed when.
 #pragma once
 
 #include <optional>
@@ -18,9 +19,10 @@ struct RunPicture {
   Course course{};
 };
 
-/// Draws it as an SVG document. Where robots have maps of their own (MissionMap::known), each has a panel with that map, its own way as a
-/// strong line and those of the others as thin ones; else one panel shows all. Rows of timelines come below: those of
-/// the team, then robot by robot; the state in which a timeline began is pale wherever it stands again, what is still to come has a dashed rim, plans begin at dashed lines, repairs are triangles.
+/// Draws it as an SVG document. Where robots have maps of their own (MissionMap::known), each has a panel with that
+/// map, its own way as a strong line and those of the others as thin ones; else one panel shows all. Rows of timelines
+/// come below: those of the team, then robot by robot; the state in which a timeline began is pale wherever it stands
+/// again, what is still to come has a dashed rim, plans begin at dashed lines, repairs are triangles.
 std::string to_svg(const RunPicture& picture);
 
 }  // namespace roci::console::cli::map

@@ -1,5 +1,5 @@
-// What planners expect of their plans, as the ground sees it: the downlink schedule, ranked utility, energy, the subway map (R110–R115,
-// R127). Each as text, JSON and one picture; functions of a sample alone.
+// What planners expect of their plans, as the ground sees it: the downlink schedule, ranked utility, energy, the subway
+// map (R110–R115, R127). Each as text, JSON and one picture; functions of a sample alone.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -22,8 +22,8 @@ std::string utility_text(const v1::MissionOutlook& outlook);
 nlohmann::json utility_json(const v1::MissionOutlook& outlook);
 std::string utility_svg(const v1::MissionOutlook& outlook);
 
-/// A whole mission over time: chains that were done, that run and that are planned, a row for all requests whose names differ in the
-/// numbers at their end (figure 8).
+/// A whole mission over time: chains that were done, that run and that are planned, a row for all requests whose names
+/// differ in the numbers at their end (figure 8).
 std::string chains_text(const v1::MissionOutlook& outlook);
 nlohmann::json chains_json(const v1::MissionOutlook& outlook);
 std::string chains_svg(const v1::MissionOutlook& outlook);

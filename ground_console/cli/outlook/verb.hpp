@@ -15,8 +15,9 @@ struct OutlookArguments {
   std::string svg;    ///< the file to write; empty: text or JSON is printed
 };
 
-/// Prints the newest that the robot's planner has told, or writes its picture. Returns an exit code (docs/exit-codes.md, "Ground tool"):
-/// 1 where no planner tells it, with the reason on standard error; a file that cannot be written throws std::invalid_argument.
+/// Prints the newest that the robot's planner has told, or writes its picture. Returns an exit code
+/// (docs/exit-codes.md, "Ground tool"): 1 where no planner tells it, with the reason on standard error; a file that
+/// cannot be written throws std::invalid_argument.
 int show_outlook(lib::Client& client, const OutlookArguments& arguments, bool json);
 
 }  // namespace roci::console::cli::outlook

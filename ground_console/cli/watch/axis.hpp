@@ -13,7 +13,8 @@ struct Span {
   std::int64_t to;
 };
 
-/// When an activity was, is, or is expected to be; `step` is null while nothing is known of it. Of what was skipped and never began: now.
+/// When an activity was, is, or is expected to be; `step` is null while nothing is known of it.
+/// Of what was skipped and never began: now.
 Span span_of(const v1::PlanActivity& activity, const v1::StepStatus* step, std::int64_t now);
 
 /// From the first start to the last end of the view's plan, which must be there, to the right of the labels.

@@ -29,17 +29,18 @@ void draw_map(const lib::MissionView& view, const Rectangle& area, Canvas& canva
 
 inline constexpr std::size_t kLeastMapColumns = 12, kLeastMapRows = 4;
 
-/// What each robot knows, all at one scale: its own map with the ground that it keeps clear of, its way, where it is, where the others
-/// are. One area for each robot; draws nothing while no place is known.
+/// What each robot knows, all at one scale: its own map with the ground that it keeps clear of, its way, where it is,
+/// where the others are. One area for each robot; draws nothing while no place is known.
 void draw_maps(const lib::MissionView& view, const std::vector<Robot>& robots,
                const std::vector<Rectangle>& areas, Canvas& canvas);
 
-/// Several robots side by side, each with its place, its states, its map in words and as a picture, and below them the states of
-/// the team. Returns how many rows it took.
+/// Several robots side by side, each with its place, its states, its map in words and as a picture, and below them the
+/// states of the team. Returns how many rows it took.
 std::size_t draw_robots(const lib::MissionView& view, const std::vector<Robot>& robots,
                         const MissionWords& words, const Rectangle& area, Canvas& canvas);
 
-/// Decisions that are open, and repairs, those under way first. Returns how many rows it took: none where there are none.
+/// Decisions that are open, and repairs, those under way first. Returns how many rows it took:
+/// none where there are none.
 std::size_t draw_open(const lib::MissionView& view, const Rectangle& area, Canvas& canvas);
 
 /// Windows and activities over time: done, running, planned, and a line for now.
@@ -55,7 +56,8 @@ struct Level {
 };
 std::vector<Level> levels_of(const lib::MissionView& view);
 
-/// A curve for each from its least to its highest value, over the axis of the plan: bright until now, dim beyond. Draws all of them or nothing.
+/// A curve for each from its least to its highest value, over the axis of the plan: bright until now, dim beyond.
+/// Draws all of them or nothing.
 void draw_levels(const lib::MissionView& view, const std::vector<Level>& levels, const MissionWords& words,
                  const Rectangle& area, Canvas& canvas);
 

@@ -20,9 +20,10 @@ struct PlanRows {
   std::size_t more = 0;  ///< activities at the end that found no room
 };
 
-/// Returns at most `room` rows: each activity with its parts behind it, those of one parent by their starts; activities without levels stand
-/// as in the plan. Where there is no room for all, what is over is folded into the activity that it was part of, the oldest
-/// first; then what has not begun, the latest first; then single activities that are over are left out; what runs stays the longest.
+/// Returns at most `room` rows: each activity with its parts behind it, those of one parent by their starts; activities
+/// without levels stand as in the plan. Where there is no room for all, what is over is folded into the activity that
+/// it was part of, the oldest first; then what has not begun, the latest first; then single activities that are over
+/// are left out; what runs stays the longest.
 PlanRows plan_rows(const lib::MissionView& view, std::size_t room);
 
 }  // namespace roci::console::cli::watch

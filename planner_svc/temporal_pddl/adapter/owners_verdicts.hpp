@@ -1,4 +1,5 @@
-// What owners of external functions say against the objects of a goal that is out of reach, in the words of the mission.
+// What owners of external functions say against the objects of a goal that is out of reach,
+// in the words of the mission.
 #pragma once
 
 #include <span>

@@ -12,9 +12,9 @@ namespace roci::planner::temporal_pddl::grounding {
 /// that take no time, too: the engine asks for `over all` right after every start.
 void drop_self_defeating(instantiation::GroundModel& model);
 
-/// Takes the instances out that are shorter than ε and whose end undoes what their start does or the other way round, which
-/// have to stand ε apart (R6). What drop_shorter_than_separation() would find only when the task is built. Returns how
-/// many there were.
+/// Takes the instances out that are shorter than ε and whose end undoes what their start does or the other way round,
+/// which have to stand ε apart (R6). What drop_shorter_than_separation() would find only when the task is built.
+/// Returns how many there were.
 std::size_t drop_undoing_too_soon(instantiation::GroundModel& model, temporal::Duration epsilon);
 
 /// Takes the instances out whose longest duration is less than what keeps their start and end apart: ε, as

@@ -18,8 +18,8 @@ class Lookahead {
 
   /// Takes from the plan `from`, whose node is stored, what of the relaxed plan can be taken, in its order
   /// and again as long as anything can; ends and timed literals come only where no start can. Every state on
-  /// the way is stored, and the last one is put in `last`, which is not `from`'s own. If `careful`, what undoes a fact that holds and
-  /// that another action still to be taken needs, and keeps, waits until nothing else can be taken; so
+  /// the way is stored, and the last one is put in `last`, which is not `from`'s own. If `careful`, what undoes a fact
+  /// that holds and that another action still to be taken needs, and keeps, waits until nothing else can be taken; so
   /// whoever leaves a place has done what was to be done there. Returns false if nothing can be taken.
   bool follow(const PlanPrefix& from, std::span<const task::SnapId> relaxed_plan, bool careful,
               Successor& last);

@@ -95,8 +95,8 @@ void erase_if(ListInterface<List, T>& list, Predicate predicate) {
   list.erase(std::remove_if(list.begin(), list.end(), predicate), list.end());
 }
 
-/// Keeps up to `Few` items in itself and more of them in a block on the heap; it has 4 bytes beside its items, and at least
-/// 16 in all.
+/// Keeps up to `Few` items in itself and more of them in a block on the heap; it has 4 bytes beside its items, and at
+/// least 16 in all.
 template <typename T, std::size_t Few = 12 / sizeof(T)>
 class ShortList : public ListInterface<ShortList<T, Few>, T> {
   static_assert(alignof(T) <= alignof(std::uint32_t));

@@ -78,7 +78,8 @@ class Evaluator {
   Layer* open_ = nullptr;
   std::map<std::string, bool> settled_;
   bool settles_constants_ = false;
-  // Rules that rest on each other's heads are followed so deep; deeper ones are settled as a layer, which does not recurse.
+  // Rules that rest on each other's heads are followed so deep;
+  // deeper ones are settled as a layer, which does not recurse.
   static constexpr int kMostBelow = 20;
   int depth_ = 0;
   std::string reason_;

@@ -10,8 +10,8 @@
 
 namespace roci::planner::temporal_pddl::values {
 
-/// Stands between the model, where a level is one more argument, and the owners, who hear of a value of the state. Such a
-/// value is named as the model writes the fluent, "(battery rover-1)". Other functions pass as they are. `owners`
+/// Stands between the model, where a level is one more argument, and the owners, who hear of a value of the state. Such
+/// a value is named as the model writes the fluent, "(battery rover-1)". Other functions pass as they are. `owners`
 /// and the parameters must outlive it.
 class LevelFunctions final : public engine::FunctionSource {
  public:

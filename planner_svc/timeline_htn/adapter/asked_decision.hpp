@@ -20,9 +20,9 @@ struct AskedDecision {
   const model::Behaviour& of(const model::Model& model) const { return model.behaviours[behaviour]; }
 };
 
-/// Looks for the activity that the decision belongs to: it stands above some that it chooses or binds, is named like a state or behaviour
-/// that has this decision, and its parts are that one's subgoals. Ids of activities may be others than those that the engine gave.
-/// Returns nothing where the model has no such behaviour.
+/// Looks for the activity that the decision belongs to: it stands above some that it chooses or binds, is named like a
+/// state or behaviour that has this decision, and its parts are that one's subgoals. Ids of activities may be others
+/// than those that the engine gave. Returns nothing where the model has no such behaviour.
 std::optional<AskedDecision> find_asked(search::Ground& ground, const temporal::FlexiblePlan& plan,
                                         const temporal::DecisionPoint& point);
 

@@ -1,4 +1,5 @@
-// Numbers that services gave for a call, behind its answer: those that the plan stands on, or what they say where there is none.
+// Numbers that services gave for a call, behind its answer: those that the plan stands on,
+// or what they say where there is none.
 #pragma once
 
 #include <span>
@@ -11,14 +12,14 @@
 
 namespace roci::planner::timeline_htn::adapter {
 
-/// Returns the values that durations, tests and constraints of the plan that was found read. Where the plan leaves decisions open: all
-/// that were given, since an answer may stand on any.
+/// Returns the values that durations, tests and constraints of the plan that was found read. Where the plan leaves
+/// decisions open: all that were given, since an answer may stand on any.
 std::vector<temporal::FunctionValueUse> values_of(const search::Search& search,
                                                   const temporal::FlexiblePlan& plan,
                                                   std::span<const engine::FunctionUse> uses);
 
-/// Adds to an answer without a plan what owners said. Where one of them found no value with the effort spent, nothing is proved, and
-/// `unsolvable` becomes `timeout`.
+/// Adds to an answer without a plan what owners said. Where one of them found no value with the effort spent, nothing
+/// is proved, and `unsolvable` becomes `timeout`.
 void explain(engine::Answer& answer, const model::Model& model, const engine::Request& request,
              std::span<const engine::FunctionUse> uses);
 

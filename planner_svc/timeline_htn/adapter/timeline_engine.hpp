@@ -9,14 +9,15 @@
 
 namespace roci::planner::timeline_htn::adapter {
 
-/// Says which searches run where a request names none, and on how many threads: the plan is the same for any number of these (R132).
+/// Says which searches run where a request names none, and on how many threads:
+/// the plan is the same for any number of these (R132).
 struct Settings {
   std::vector<search::Resolver> resolvers{search::Resolver{}};  ///< at least one
   std::size_t threads = 1;
 };
 
-/// `Request::model` is domain and behaviours, with or without a problem; `problem_text` may hold more of the model. What the request says
-/// of states, objects and goals counts.
+/// `Request::model` is domain and behaviours, with or without a problem; `problem_text` may hold more of the model.
+/// What the request says of states, objects and goals counts.
 class TimelineEngine final : public engine::AnsweringEngine {
  public:
   explicit TimelineEngine(Settings settings = {}) : settings_(std::move(settings)) {}

@@ -82,7 +82,8 @@ class Trial {
   }
 
  private:
-  // Where the components stand: as they are seen. What is not seen, or is a complex state that is under way, is where the plan has it.
+  // Where the components stand: as they are seen. What is not seen, or is a complex state that is under way,
+  // is where the plan has it.
   void put_states() {
     const temporal::NetworkDistances network(open_.plan.point_count, temporal::all_constraints(open_.plan));
     for (Index c = 0; c < model_.components.size(); ++c) {
@@ -132,7 +133,8 @@ class Trial {
     return out;
   }
 
-  // Whether all is seen that subgoals stand on: their own component, those that they need, and conditions of behaviours for them.
+  // Whether all is seen that subgoals stand on: their own component, those that they need,
+  // and conditions of behaviours for them.
   bool all_known(const model::Decision& decision) const {
     const model::Behaviour& behaviour = asked_.of(model_);
     for (const model::Precondition& one : behaviour.conditions)
@@ -187,7 +189,8 @@ class Trial {
     });
   }
 
-  // Whether the subgoals come about from here with no commands but their own and, where that is said, those that are permitted.
+  // Whether the subgoals come about from here with no commands but their own and, where that is said,
+  // those that are permitted.
   bool possible(const std::vector<bool>& subgoals, const std::vector<Index>& objects,
                 std::optional<std::set<std::string>> permitted) {
     const model::Behaviour& behaviour = asked_.of(model_);

@@ -1,5 +1,5 @@
-// The independent checker of hierarchical timelines (R130, R131, R133, R136–R138, R142): it computes everything anew by brute force, and sees
-// only the model and how it is read, so that a mistake of the search cannot hide itself.
+// The independent checker of hierarchical timelines (R130, R131, R133, R136–R138, R142): it computes everything anew by
+// brute force, and sees only the model and how it is read, so that a mistake of the search cannot hide itself.
 #pragma once
 
 #include <string>
@@ -10,11 +10,12 @@
 
 namespace roci::planner::timeline_htn::checking {
 
-/// Returns all faults of a plan for the model's problem, each as one plain sentence; none if it may be executed. The model, which must
-/// have a problem, is checked already; nothing of the plan need be.
+/// Returns all faults of a plan for the model's problem, each as one plain sentence; none if it may be executed. The
+/// model, which must have a problem, is checked already; nothing of the plan need be.
 ///
-/// A plan is taken apart by its names: the activity "wheels.drive(a, b)" stands for that state, one that is named like a behaviour without
-/// `achieves` for that behaviour; tokens are the values of the timeline of the component that they name. Checked are
+/// A plan is taken apart by its names: the activity "wheels.drive(a, b)" stands for that state, one that is named like
+/// a behaviour without `achieves` for that behaviour; tokens are the values of the timeline of the component
+/// that they name. Checked are
 ///  - its own form (temporal::check), and that of its timelines from origin to horizon (R142);
 ///  - timelines: each component has one, it begins as the problem says and ends at rest; each value exists, lasts as it may in every
 ///    schedule, and follows the one before by a transition; no error state is planned;
@@ -25,8 +26,8 @@ namespace roci::planner::timeline_htn::checking {
 ///    the plan does by that;
 ///  - decisions: those of the behaviours, with their choices, rules and arguments, open until the point that they name;
 ///  - goals: reached in their windows, one after the other where the problem says so.
-/// What cannot be read off the network is executed: the earliest and the latest schedule, those with one point as early or as late as it
-/// can be and the others opposite, and random ones (always the same for the same plan).
+/// What cannot be read off the network is executed: the earliest and the latest schedule, those with one point as early
+/// or as late as it can be and the others opposite, and random ones (always the same for the same plan).
 std::vector<std::string> faults(const model::Model& model, const temporal::FlexiblePlan& plan);
 
 }  // namespace roci::planner::timeline_htn::checking

@@ -35,7 +35,8 @@ temporal::Truth with(const temporal::Condition& condition, const Seen& seen) {
   });
 }
 
-// Holds the condition against each value of the other timeline: none that meets the need may make it false, and each of the others must.
+// Holds the condition against each value of the other timeline: none that meets the need may make it false,
+// and each of the others must.
 void check(const Version& version, const Part& part, const model::Need& need,
            const temporal::Condition& condition, const char* when, Faults& out) {
   const auto& needs = version.definition(*part.state).needs;

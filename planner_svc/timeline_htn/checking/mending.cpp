@@ -23,7 +23,8 @@ class Mending {
     return !top->state;
   }
 
-  /// Returns whether the value is what its timeline goes on with at once, behind the mending or what ran when the plan began.
+  /// Returns whether the value is what its timeline goes on with at once,
+  /// behind the mending or what ran when the plan began.
   bool goes_on(const Part& part) const {
     if (!part.value || version_.definition(*part.state).kind == StateKind::complex) return false;
     const std::vector<Value>& values = version_.timelines[part.state->component];

@@ -25,17 +25,20 @@ std::optional<Seen> seen(const Version& version, const GroundState& state);
 /// By activity; empty for those that are not decomposed.
 using Decompositions = std::vector<std::vector<Decomposition>>;
 
-/// Checks states, transitions, how long values last, and that activities stand on their timelines; notes where (Part::value).
+/// Checks states, transitions, how long values last, and that activities stand on their timelines;
+/// notes where (Part::value).
 void check_timelines(Version& version, Faults& out);
 /// Checks that one value meets each dependency of another in every schedule.
 void check_needs(const Version& version, Faults& out);
-/// Checks that the executive waits for what an activity needs of timelines that are observed, and for nothing else of them.
+/// Checks that the executive waits for what an activity needs of timelines that are observed,
+/// and for nothing else of them.
 void check_conditions(const Version& version, Faults& out);
 /// Returns all decompositions whose objects, tests, parts and constraints fit; notes activities that have none.
 Decompositions decompose(const Version& version, Faults& out);
 /// Checks that the plan begins with what the problem triggers.
 void check_triggers(const Version& version, const Decompositions& decompositions, Faults& out);
-/// Checks that what belongs to no mending of an error starts after all of it, but for what timelines go on with at once.
+/// Checks that what belongs to no mending of an error starts after all of it,
+/// but for what timelines go on with at once.
 void check_mending(const Version& version, Faults& out);
 /// Checks the decisions that the behaviours leave open.
 void check_decisions(const Version& version, const Decompositions& decompositions, Faults& out);
@@ -49,7 +52,8 @@ void execute(const Version& version, const Schedule& schedule, Decompositions& d
 std::optional<temporal::Window> bounds_of_constraint(const model::Model& model,
                                                      const model::SubgoalConstraint& constraint,
                                                      const Binding& binding);
-/// Returns what a state lasts at least and at most, over the objects that an open decision admits for the activity (nullptr: none).
+/// Returns what a state lasts at least and at most, over the objects that an open decision admits for the
+/// activity (nullptr: none).
 model::Bounds bounds_of(const Version& version, const GroundState& state,
                         const temporal::PlanActivity* activity);
 

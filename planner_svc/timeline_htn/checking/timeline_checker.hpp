@@ -17,9 +17,9 @@ class TimelineChecker final : public engine::Checker {
   std::vector<std::string> faults(const engine::CheckedPlan& checked) const override;
 };
 
-/// Returns the model with the request in place of its own problem, or notes why there is none. Where a component stands is found by trying
-/// all its states until one shows as what was observed; a goal is a state that shows as what the goal compares with, or several. `values` are
-/// the numbers that services gave.
+/// Returns the model with the request in place of its own problem, or notes why there is none. Where a component stands
+/// is found by trying all its states until one shows as what was observed; a goal is a state that shows as what the
+/// goal compares with, or several. `values` are the numbers that services gave.
 std::optional<model::Model> model_of(const engine::Request& request, std::vector<std::string>& out,
                                      std::span<const engine::FunctionUse> values = {});
 

@@ -63,7 +63,8 @@ struct Version {
 /// Takes the plan, which passes temporal::check(), apart; notes names that the model does not have.
 Version take_apart(const model::Model& model, const temporal::FlexiblePlan& plan, Faults& out);
 
-/// Returns whether the state is one of the pattern's, and binds free variables to its objects. On false some may be bound.
+/// Returns whether the state is one of the pattern's, and binds free variables to its objects.
+/// On false some may be bound.
 bool unify(const model::Pattern& pattern, const GroundState& state, Binding& binding);
 /// Returns whether there is such a state: its tests hold and it has bounds.
 bool exists(const model::Model& model, const GroundState& state);

@@ -1,5 +1,5 @@
-// The plan as a matrix of values (R143): plan[i][j] is the value of timeline i from transition j on, where a transition is a time point
-// at which at least one timeline changes. Made from a FlexiblePlan alone, whoever has made that.
+// The plan as a matrix of values (R143): plan[i][j] is the value of timeline i from transition j on, where a transition
+// is a time point at which at least one timeline changes. Made from a FlexiblePlan alone, whoever has made that.
 #pragma once
 
 #include <string>
@@ -22,12 +22,14 @@ struct Matrix {
   std::vector<std::vector<bool>> changes;  ///< whether the timeline changes at the transition
 };
 
-/// Returns the matrix of a plan that has passed check(). Of values that stand at one time on one timeline the later one counts.
+/// Returns the matrix of a plan that has passed check(). Of values that stand at one time on one
+/// timeline the later one counts.
 Matrix matrix_of(const temporal::FlexiblePlan& plan);
 
 /// Writes it as lines of words, one for each transition; a value stands where it begins.
 std::string to_text(const Matrix& matrix);
-/// Writes one object: timelines, transitions ({earliest_s, latest_s}), plan (rows of values as words, null where nothing is planned).
+/// Writes one object: timelines, transitions ({earliest_s, latest_s}), plan (rows of values as words,
+/// null where nothing is planned).
 std::string to_json(const Matrix& matrix);
 /// Draws it: a row for each timeline, a column for each transition.
 std::string to_svg(const Matrix& matrix, const std::string& title);

@@ -126,8 +126,8 @@ class Extraction {
     }
   }
 
-  // What is seen of its timeline while it lasts, and of the default state behind it: who looks ahead finds there what brings a value
-  // about, and the executive keeps the timelines that nobody observes.
+  // What is seen of its timeline while it lasts, and of the default state behind it: who looks ahead finds there what
+  // brings a value about, and the executive keeps the timelines that nobody observes.
   void fill_impacts(const Activity& one, PlanActivity& out) const {
     const auto add = [&](StateId state, temporal::ImpactWhen moment) {
       const auto& observed = ground_.definition(state).observed;
@@ -180,7 +180,8 @@ class Extraction {
     }
   }
 
-  // What such a state has brought about is an activity of its own behind it, so that it is skipped where a decision leaves the state undone.
+  // What such a state has brought about is an activity of its own behind it, so that it is skipped where a decision
+  // leaves the state undone.
   void add_marks() {
     for (Index i = 0; i < plan_.activities().size(); ++i) {
       if (shown_[i] == kNone || !may_be_left(i)) continue;
@@ -233,8 +234,8 @@ class Extraction {
     if (after != kNone && ground_.at(after).kind == StateKind::resting) out.post = observed(after);
   }
 
-  // What is seen where the need is met. Its free names may be any object: all of them where they are all that is seen of the state, else one
-  // after the other.
+  // What is seen where the need is met. Its free names may be any object: all of them where they are all that is seen
+  // of the state, else one after the other.
   temporal::Condition seen(StateId needing, const model::Need& need, const model::Observed& as) const {
     std::vector<Index> objects = ground_.at(needing).state.objects;
     const std::size_t bound = objects.size();

@@ -1,5 +1,5 @@
-// Everything that a model must fulfil before it is planned with, told at once: one plain sentence for each fault, with the part of the
-// model and what to do about it.
+// Everything that a model must fulfil before it is planned with, told at once: one plain sentence for each fault, with
+// the part of the model and what to do about it.
 #pragma once
 
 #include <string>
@@ -21,9 +21,9 @@ struct Fault {
   std::string remedy;
 };
 
-/// Returns all faults, in the order of the model. It takes indices and types to be right, as reading leaves them. With none but warnings
-/// every complex state can end, no behaviour contradicts itself in time, every timeline can rest, and with a problem every component
-/// has its initial state.
+/// Returns all faults, in the order of the model. It takes indices and types to be right, as reading leaves them. With
+/// none but warnings every complex state can end, no behaviour contradicts itself in time, every timeline can rest, and
+/// with a problem every component has its initial state.
 std::vector<Fault> check(const Model& model);
 
 /// Returns whether none of them is more than a warning.

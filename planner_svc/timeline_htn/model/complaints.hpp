@@ -35,11 +35,13 @@ class Complaints {
   Fault about_;
 };
 
-/// Complains of behaviours that never end: they lead to what they achieve without coming nearer to it, or nothing that they need ends.
+/// Complains of behaviours that never end: they lead to what they achieve without coming nearer to it,
+/// or nothing that they need ends.
 void check_recursion(Complaints& complaints);
 /// Complains of behaviours whose constraints no schedule of their subgoals fulfils, whatever their objects.
 void check_time(Complaints& complaints);
-/// Complains of predicted states that are none, do not follow each other or do not last as long, and of what wants to change them.
+/// Complains of predicted states that are none, do not follow each other or do not last as long,
+/// and of what wants to change them.
 void check_predictions(Complaints& complaints);
 
 }  // namespace roci::planner::timeline_htn::model

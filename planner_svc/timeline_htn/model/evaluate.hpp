@@ -11,7 +11,8 @@
 
 namespace roci::planner::timeline_htn::model {
 
-/// Returns the number, or nothing where a table has none for these objects, something is divided by zero, or the result is not finite.
+/// Returns the number, or nothing where a table has none for these objects, something is divided by zero,
+/// or the result is not finite.
 std::optional<double> evaluate(const Model& model, const Expression& expression,
                                std::span<const Index> objects);
 
@@ -26,8 +27,8 @@ struct Bounds {
   temporal::Duration shortest{0};
   temporal::Duration longest = temporal::no_bound;
 };
-/// Returns them, or nothing where a bound has no number, is negative or too long, or the longest is below the shortest: there is no
-/// such state then.
+/// Returns them, or nothing where a bound has no number, is negative or too long, or the longest is below the shortest:
+/// there is no such state then.
 std::optional<Bounds> bounds(const Model& model, const State& state, std::span<const Index> objects);
 
 /// Is a number that a service is asked for.
@@ -49,8 +50,8 @@ inline Index object_of(const Term& term, std::span<const Index> objects) {
   return term.object ? term.index : objects[term.index];
 }
 
-/// Returns what a command is given where these objects stand for the parameters of its state: "w1"; "w1.x" for a property, in whose
-/// place the executive puts the value.
+/// Returns what a command is given where these objects stand for the parameters of its state: "w1"; "w1.x" for a
+/// property, in whose place the executive puts the value.
 std::string text_of(const Model& model, const Argument& argument, std::span<const Index> objects);
 
 }  // namespace roci::planner::timeline_htn::model

@@ -1,6 +1,7 @@
-// What the hierarchical timeline engine plans from, as data (QuijoteExpress, section 4.2; R134–R140): the domain D (components, their
-// states and relations), the behaviours B (how complex states come about) and the problem P (initial states and goals). Plain values;
-// indices refer to the lists of `Model`. docs/timeline-format.md says what each word means.
+// What the hierarchical timeline engine plans from, as data (QuijoteExpress, section 4.2; R134–R140): the domain D
+// (components, their states and relations), the behaviours B (how complex states come about) and the problem P (initial
+// states and goals). Plain values; indices refer to the lists of `Model`.
+// docs/timeline-format.md says what each word means.
 #pragma once
 
 #include <cstdint>
@@ -38,12 +39,14 @@ struct Term {
   friend bool operator==(const Term&, const Term&) = default;
 };
 
-/// Is a table over objects: rows of a relation, or the numbers of a function. What has no row does not hold, or has no number.
+/// Is a table over objects: rows of a relation, or the numbers of a function.
+/// What has no row does not hold, or has no number.
 struct Relation {
   std::string name;
   std::vector<Index> types;
   std::vector<std::vector<Index>> rows;  ///< sorted, each once
-  /// Of a relation that is observed: it holds of a and b, too, where the timeline "TIMELINE.a.b" has this value. Else both are empty.
+  /// Of a relation that is observed: it holds of a and b, too,
+  /// where the timeline "TIMELINE.a.b" has this value. Else both are empty.
   std::string timeline{};
   std::string value{};
   friend bool operator==(const Relation&, const Relation&) = default;
@@ -139,7 +142,8 @@ enum class NeedKind {
   met_by,    ///< the other ends just at the start
 };
 
-/// Is a dependency (R136): what a state needs of another component. Terms are parameters of the state, or free: some state that fits.
+/// Is a dependency (R136): what a state needs of another component. Terms are parameters of the state,
+/// or free: some state that fits.
 struct Need {
   NeedKind kind = NeedKind::during;
   Pattern state;
@@ -214,8 +218,9 @@ struct Choice {
   friend bool operator==(const Choice&, const Choice&) = default;
 };
 
-/// Is a decision that the plan leaves open (R131): a choice among groups of subgoals, of which the plan reckons with the first; the value
-/// of a variable in the arguments of commands; or what else a variable might stand for, of which the plan reckons with one object.
+/// Is a decision that the plan leaves open (R131): a choice among groups of subgoals, of which the plan reckons with
+/// the first; the value of a variable in the arguments of commands; or what else a variable might stand for, of which
+/// the plan reckons with one object.
 struct Decision {
   std::string name;
   temporal::ResolverKind resolver_kind = temporal::ResolverKind::ground;
@@ -283,8 +288,8 @@ struct Problem {
   std::vector<std::optional<Pattern>> initial;      ///< by component; objects alone
   std::vector<Goal> goals;
   bool goals_changed = false;
-  /// By component: nothing where the plan brings its states about; else it stays as it begins until the first of these, and no plan
-  /// changes it. They stand in order of time. Components behind the last one have nothing.
+  /// By component: nothing where the plan brings its states about; else it stays as it begins until the first of these,
+  /// and no plan changes it. They stand in order of time. Components behind the last one have nothing.
   std::vector<std::optional<std::vector<PredictedState>>> predicted{};
   friend bool operator==(const Problem&, const Problem&) = default;
 };

@@ -1,4 +1,5 @@
-// One line of the small languages inside of a model: "navigation.traverse(from, to)", "at(x) -> driving(x, y)", "2 * distance(a, b) + 5".
+// One line of the small languages inside of a model: "navigation.traverse(from, to)", "at(x) -> driving(x, y)",
+// "2 * distance(a, b) + 5".
 #pragma once
 
 #include <optional>

@@ -1,4 +1,5 @@
-// A model from files or texts, checked: what everybody calls who wants to plan with one (R134). docs/timeline-format.md is the schema.
+// A model from files or texts, checked: what everybody calls who wants to plan with one (R134).
+// docs/timeline-format.md is the schema.
 #pragma once
 
 #include <filesystem>
@@ -20,8 +21,9 @@ struct Text {
   std::string content;
 };
 
-/// Reads domain, behaviours and problem, which may stand in one file or in several that belong together, with what they include. All
-/// faults are noted, each with file, line and remedy. Returns nothing where one is an error: a model is taken whole or not at all.
+/// Reads domain, behaviours and problem, which may stand in one file or in several that belong together, with what they
+/// include. All faults are noted, each with file, line and remedy. Returns nothing where one is an error: a model is
+/// taken whole or not at all.
 std::optional<model::Model> load_model(const std::vector<std::filesystem::path>& files,
                                        mission::Findings& findings);
 /// Does the same, and throws mission::FileError with the errors, one in each line.

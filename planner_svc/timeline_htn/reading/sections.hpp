@@ -1,4 +1,5 @@
-// The sections of a model, each read from an entry into the vocabulary, in this order; the last ones refer to the first.
+// The sections of a model, each read from an entry into the vocabulary, in this order;
+// the last ones refer to the first.
 #pragma once
 
 #include <map>

@@ -1,4 +1,5 @@
-// Numbers of a model that services give (R35, R36): asked for before the search, table by table, through the port that every engine has.
+// Numbers of a model that services give (R35, R36): asked for before the search, table by table,
+// through the port that every engine has.
 #pragma once
 
 #include <functional>
@@ -20,8 +21,9 @@ struct Asked {
   std::string reason;  ///< with the place of the table and a remedy
 };
 
-/// Asks for all numbers of each table that is asked for, exactly, in one batch for each, and puts them into the model; a table of more
-/// than kMostAsked is refused and nobody is asked for it. The objects and rows of the request stand in the model already.
+/// Asks for all numbers of each table that is asked for, exactly, in one batch for each, and puts them into the model;
+/// a table of more than kMostAsked is refused and nobody is asked for it.
+/// The objects and rows of the request stand in the model already.
 Asked ask_numbers(model::Model& model, engine::FunctionSource& functions,
                   const std::function<bool()>& cancelled);
 

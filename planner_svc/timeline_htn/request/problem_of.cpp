@@ -110,7 +110,8 @@ void put_objects(const Request& request, Model& model) {
   }
 }
 
-// The objects that stand behind the relation's name in a timeline's: "way.w2.w3" of "way"; nothing: it is another timeline.
+// The objects that stand behind the relation's name in a timeline's: "way.w2.w3" of "way";
+// nothing: it is another timeline.
 std::optional<std::vector<Index>> row_of(const Model& model, const model::Relation& relation,
                                          const std::string& timeline) {
   if (!timeline.starts_with(relation.timeline + ".")) return std::nullopt;

@@ -20,13 +20,15 @@ struct Misfit {
 /// Reads the texts of a request: `model`, and `problem_text` where there is one. The problem is not checked.
 std::optional<model::Model> read_model(const engine::Request& request, mission::Findings& findings);
 
-/// Puts what the request says in place of the model's own problem: objects of types that the model knows, the states of components whose
-/// timelines are observed, goals with their windows from the origin. A component that is not observed begins where the problem of the
-/// model says. Without a horizon in the model the plan has a day. Where the problem says that a component is predicted and its states are
-/// observed, it is what the request predicts of their timelines: nothing, and it stays as it is.
+/// Puts what the request says in place of the model's own problem: objects of types that the model knows, the states of
+/// components whose timelines are observed, goals with their windows from the origin. A component that is not observed
+/// begins where the problem of the model says. Without a horizon in the model the plan has a day. Where the problem
+/// says that a component is predicted and its states are observed, it is what the request predicts of their timelines:
+/// nothing, and it stays as it is.
 ///
-/// A goal is a comparison `timeline = state`, or several that are to hold: the timeline is that of a component of this name, or one by
-/// which a component's states are observed. Returns what does not fit; with nothing the model has a problem that can be checked.
+/// A goal is a comparison `timeline = state`, or several that are to hold: the timeline is that of a component of this
+/// name, or one by which a component's states are observed. Returns what does not fit; with nothing the model has a
+/// problem that can be checked.
 std::vector<Misfit> put_request(const engine::Request& request, model::Model& model);
 
 /// Is what the timelines of a request show of a component.

@@ -25,7 +25,8 @@ bool PartialPlan::decompose(Index activity, Index behaviour_index, Index binding
   });
 }
 
-// What is done first of each object that the plan does not reckon with stands beside the timelines, behind the decision.
+// What is done first of each object that the plan does not reckon with stands beside the
+// timelines, behind the decision.
 bool PartialPlan::add_choices(Index activity, const Behaviour& behaviour, const model::Decision& decision,
                               const std::vector<Index>& objects, Index first) {
   const Activity& at = activities_[decision.before.subgoal ? first + *decision.before.subgoal : activity];

@@ -55,7 +55,8 @@ std::vector<StateId> Decompositions::explore(StateId root) {
   return found;
 }
 
-// The fewest values first (Knuth 1977, who takes Dijkstra's shortest paths to grammars): a way counts once all its parts are known.
+// The fewest values first (Knuth 1977, who takes Dijkstra's shortest paths to grammars):
+// a way counts once all its parts are known.
 void Decompositions::measure(const std::vector<StateId>& states) {
   struct Sum {
     StateId state;
@@ -101,8 +102,8 @@ void Decompositions::measure(const std::vector<StateId>& states) {
   }
 }
 
-// What all ways of a state share, with the state; nothing: no way is known yet. A way by way of what cannot come about without this state
-// shares all of it anyway.
+// What all ways of a state share, with the state; nothing: no way is known yet. A way by way of what cannot come about
+// without this state shares all of it anyway.
 std::optional<std::vector<StateId>> Decompositions::shared_by_ways(StateId state) {
   std::optional<std::vector<StateId>> shared;
   std::vector<StateId> all, both;
@@ -139,8 +140,8 @@ std::optional<std::vector<StateId>> Decompositions::shared_by_ways(StateId state
   return shared;
 }
 
-// The greatest sets that agree with each other: of each state itself and what all its ways share. Those of few values come first, so that
-// nearly all are found in one round.
+// The greatest sets that agree with each other: of each state itself and what all its ways share. Those of few values
+// come first, so that nearly all are found in one round.
 void Decompositions::find_landmarks(StateId root) {
   std::vector<StateId> states{root};
   std::unordered_map<StateId, std::vector<StateId>> above{{root, {}}};

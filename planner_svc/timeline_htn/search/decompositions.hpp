@@ -1,4 +1,5 @@
-// What a complex state can be made of, whatever the timelines: the and/or graph of behaviours below it, relaxed of conditions and times.
+// What a complex state can be made of, whatever the timelines: the and/or graph of behaviours below it,
+// relaxed of conditions and times.
 #pragma once
 
 #include <cstdint>
@@ -17,11 +18,13 @@ class Decompositions {
 
   /// Returns whether behaviours make a state up at all.
   bool derivable(StateId state);
-  /// Returns whether all parts of a behaviour with these objects can be made up: else it leads nowhere, whatever the timelines.
+  /// Returns whether all parts of a behaviour with these objects can be made up:
+  /// else it leads nowhere, whatever the timelines.
   bool derivable(Index behaviour, const std::vector<Index>& objects);
   /// Returns whether behaviours make a complex state up without any of these states below it, which are sorted.
   bool derivable_without(StateId state, const std::vector<StateId>& excluded);
-  /// Returns the fewest values that a state needs, itself counted and those to rest in not; kNone: no behaviours make it up.
+  /// Returns the fewest values that a state needs, itself counted and those to rest in not; kNone:
+  /// no behaviours make it up.
   std::uint32_t values(StateId state);
   /// Returns states without which it cannot come about, itself among them, sorted: those that all its ways share.
   const std::vector<StateId>& landmarks(StateId state);

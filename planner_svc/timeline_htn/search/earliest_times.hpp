@@ -1,4 +1,5 @@
-// How early the goals can come about by what is predicted, whatever else is planned: a proof that one comes too late, without a search.
+// How early the goals can come about by what is predicted, whatever else is planned:
+// a proof that one comes too late, without a search.
 #pragma once
 
 #include <optional>
@@ -14,9 +15,10 @@ struct TooLate {
   std::string reason;
 };
 
-/// Returns the first goal, in the order of the problem, that cannot begin before its window closes. A timeline that goes there as fast as
-/// transitions and shortest durations permit waits where a need or a condition asks for what is predicted; all else is left out, so no
-/// plan is faster. `begun` is a plan to which nothing has been added. Without anything predicted it returns nothing.
+/// Returns the first goal, in the order of the problem, that cannot begin before its window closes. A timeline that
+/// goes there as fast as transitions and shortest durations permit waits where a need or a condition asks for what is
+/// predicted; all else is left out, so no plan is faster. `begun` is a plan to which nothing has been added. Without
+/// anything predicted it returns nothing.
 std::optional<TooLate> too_late(Ground& ground, const Successors& successors, const PartialPlan& begun);
 
 }  // namespace roci::planner::timeline_htn::search

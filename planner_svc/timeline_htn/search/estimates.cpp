@@ -17,7 +17,8 @@ class Blind : public Estimate {
   std::uint32_t of(const PartialPlan&) override { return 0; }
 };
 
-/// Finds what has come to be open, and what no longer is, since a plan was looked at last: plans that follow each other differ in little.
+/// Finds what has come to be open, and what no longer is, since a plan was looked at last:
+/// plans that follow each other differ in little.
 class OpenStates {
  public:
   /// Calls these with each state; kNone stands for something urgent that has none.

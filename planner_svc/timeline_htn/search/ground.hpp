@@ -58,7 +58,8 @@ class Ground {
   std::vector<StateId> reachable(StateId from);
   /// Returns whether a state is one of the pattern's, where variables that are kNone fit all.
   bool fits(StateId state, const model::Pattern& pattern, std::span<const Index> bound) const;
-  /// Returns the components that bringing about some state of this one may touch or look at; what no plan changes is none of them.
+  /// Returns the components that bringing about some state of this one may touch or look at;
+  /// what no plan changes is none of them.
   ComponentSet footprint(Index component) const { return footprints_[component]; }
   /// Returns the components whose timelines are predicted.
   ComponentSet predicted() const { return predicted_; }

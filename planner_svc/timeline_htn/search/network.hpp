@@ -11,18 +11,19 @@ namespace roci::planner::timeline_htn::search {
 
 using temporal::Duration, temporal::TimePoint;
 
-/// Has points at or after point 0, the origin, and not after the horizon. Beside temporal::Stn it can be taken back to where it was, at
-/// the cost of what has changed since, and keeps no latest times.
+/// Has points at or after point 0, the origin, and not after the horizon. Beside temporal::Stn it can be taken back to
+/// where it was, at the cost of what has changed since, and keeps no latest times.
 ///
-/// A constraint is an edge: the time of its head is not below that of its tail plus a weight. add() lets the earliest times rise along
-/// the edges; where that would raise the edge's own tail there is a positive cycle (Cotton and Maler 2006, for the earliest times as
-/// potential).
+/// A constraint is an edge: the time of its head is not below that of its tail plus a weight. add() lets the earliest
+/// times rise along the edges; where that would raise the edge's own tail there is a positive cycle (Cotton and Maler
+/// 2006, for the earliest times as potential).
 class Network {
  public:
   explicit Network(Duration horizon) : horizon_(horizon), earliest_{Duration{0}}, first_{-1} {}
 
   TimePoint add_point();
-  /// Requires lower <= t[to] - t[from] <= upper. Returns false where no schedule does; then the network must be taken back.
+  /// Requires lower <= t[to] - t[from] <= upper. Returns false where no schedule does;
+  /// then the network must be taken back.
   [[nodiscard]] bool add(TimePoint from, TimePoint to, Duration lower, Duration upper = temporal::no_bound);
   Duration earliest(TimePoint point) const { return earliest_[point]; }
   std::size_t size() const { return earliest_.size(); }

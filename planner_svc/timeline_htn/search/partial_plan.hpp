@@ -1,4 +1,5 @@
-// A plan while it is built: timelines that grow at their ends, the hierarchy above them, what is still to be done, and time.
+// A plan while it is built: timelines that grow at their ends, the hierarchy above them,
+// what is still to be done, and time.
 #pragma once
 
 #include <cstdint>

@@ -14,8 +14,8 @@
 
 namespace roci::planner::timeline_htn::search {
 
-/// Returns the resolver of a name: that of a heuristic (blind, relaxed_plan, landmarks), with "_last" behind it where the last of equal
-/// things is tried first; nothing for any other text.
+/// Returns the resolver of a name: that of a heuristic (blind, relaxed_plan, landmarks), with "_last" behind it where
+/// the last of equal things is tried first; nothing for any other text.
 std::optional<Resolver> resolver_named(std::string_view name);
 /// Returns all such names.
 std::vector<std::string> resolver_names();
@@ -28,9 +28,10 @@ struct Resolution {
   std::uint64_t evaluated = 0;
 };
 
-/// Lets all resolvers search in rounds, each twice as long as the one before, on at most so many threads. In the first round in which
-/// some have solved the problem the one with the fewest expansions wins, of equal ones the first; one that has exhausted it ends all. So
-/// the plan is the same, byte for byte, for any number of threads. `evaluations` and `memory_bytes` (0: no bound) are shared evenly.
+/// Lets all resolvers search in rounds, each twice as long as the one before, on at most so many threads. In the first
+/// round in which some have solved the problem the one with the fewest expansions wins, of equal ones the first; one
+/// that has exhausted it ends all. So the plan is the same, byte for byte, for any number of threads. `evaluations` and
+/// `memory_bytes` (0: no bound) are shared evenly.
 Resolution resolve(const model::Model& model, const std::vector<Resolver>& resolvers, std::size_t threads,
                    std::uint64_t evaluations, std::size_t memory_bytes,
                    const std::function<bool()>& cancelled);

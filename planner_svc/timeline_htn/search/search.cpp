@@ -103,7 +103,8 @@ void Search::start() {
   note(plan_->obstacle());
 }
 
-// Brings the plan to a node: back to where the two ways part, then forward. Returns false where its last step leads nowhere.
+// Brings the plan to a node: back to where the two ways part, then forward.
+// Returns false where its last step leads nowhere.
 bool Search::go_to(Index node) {
   std::vector<Index> way;
   Index common = node;

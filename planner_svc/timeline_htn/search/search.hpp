@@ -1,4 +1,5 @@
-// The search of the hierarchical timeline engine: forward in time from the initial state (R133), hierarchy built and kept (R130).
+// The search of the hierarchical timeline engine: forward in time from the initial state (R133),
+// hierarchy built and kept (R130).
 #pragma once
 
 #include <cstdint>
@@ -51,19 +52,20 @@ class Estimate {
 };
 std::unique_ptr<Estimate> make_estimate(Heuristic heuristic, Ground& ground, const Successors& successors);
 
-/// Returns the goals in the order in which they are tried: what comes first by `after`, then what closes or opens first, then the first
-/// in the problem.
+/// Returns the goals in the order in which they are tried: what comes first by `after`, then what closes or opens
+/// first, then the first in the problem.
 std::vector<Index> goal_order(const model::Problem& problem);
 
-/// Is a greedy best-first search with deferred evaluation; blind it is depth-first. It is resumable, and the same model, resolver and
-/// budgets give the same steps.
+/// Is a greedy best-first search with deferred evaluation; blind it is depth-first. It is resumable, and the same
+/// model, resolver and budgets give the same steps.
 ///
-/// It searches in up to three passes, each of which finds more and takes longer. The first goes straight from state to state of a timeline, and
-/// drops a plan whose timelines and open activities are those of one that was seen, whatever its times. The second takes detours. Where
-/// time has refused a step, what was dropped may be missed, so the third drops nothing. So it is complete, as far as the ancestors of a
-/// complex state do not hold that state again.
+/// It searches in up to three passes, each of which finds more and takes longer. The first goes straight from state to
+/// state of a timeline, and drops a plan whose timelines and open activities are those of one that was seen, whatever
+/// its times. The second takes detours. Where time has refused a step, what was dropped may be missed, so the third
+/// drops nothing. So it is complete, as far as the ancestors of a complex state do not hold that state again.
 ///
-/// Before it takes detours, or where the first pass takes long, it looks once whether a relaxed reachability proves that there is no plan.
+/// Before it takes detours, or where the first pass takes long,
+/// it looks once whether a relaxed reachability proves that there is no plan.
 class Search {
  public:
   Search(const model::Model& model, const Resolver& resolver);

@@ -103,7 +103,8 @@ std::vector<Index> Successors::candidates(const PartialPlan& plan) {
         more = true;
         continue;
       }
-      // It comes once others are complete: what of these is ready must be among the chosen. What else holds it up may be anything.
+      // It comes once others are complete: what of these is ready must be among the chosen.
+      // What else holds it up may be anything.
       const bool known = std::ranges::any_of(ready, [&](Index first) { return waits_for(activity, first); });
       for (const Index first : ready) {
         if (std::ranges::find(chosen, first) != chosen.end() || (known && !waits_for(activity, first)))

@@ -17,10 +17,10 @@ class Decompositions;
 
 /// Gives the steps that lead on from a plan, so that every plan that there is can still be reached.
 ///
-/// What is urgent is settled at once: the parts of a complex state, then what a value needs of others. Else the open activity that may
-/// start the earliest is placed, its value at the end of its timeline: the search goes forward in time (R133). Others stand beside it
-/// as alternatives only where they might touch the same components, now or through what they bring about; the order of those that do
-/// not makes no difference.
+/// What is urgent is settled at once: the parts of a complex state, then what a value needs of others. Else the open
+/// activity that may start the earliest is placed, its value at the end of its timeline: the search goes forward in
+/// time (R133). Others stand beside it as alternatives only where they might touch the same components, now or through
+/// what they bring about; the order of those that do not makes no difference.
 class Successors {
  public:
   Successors(Ground& ground, Bindings& bindings, Order order);
@@ -34,7 +34,8 @@ class Successors {
   void permit_detours() { detours_ = true; }
   /// Returns whether there were longer ways that were not given.
   bool left_out() const { return left_out_; }
-  /// Returns whether predicted states were not given since they end before what needs them can begin, by the times of the plan.
+  /// Returns whether predicted states were not given since they end before what needs them can begin,
+  /// by the times of the plan.
   bool passed_by() const { return passed_by_; }
   /// Tells why there was no step.
   const Obstacle& obstacle() const { return obstacle_; }

@@ -9,8 +9,8 @@
 
 namespace roci::planner::timeline_htn::search {
 
-/// Holds the states of a component that transitions lead to from one, cut into parts within which each leads to each other (strongly
-/// connected components, after Tarjan).
+/// Holds the states of a component that transitions lead to from one, cut into parts within which each leads to each
+/// other (strongly connected components, after Tarjan).
 class TransitionGraph {
  public:
   TransitionGraph(Ground& ground, StateId from);

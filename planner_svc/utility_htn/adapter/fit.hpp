@@ -16,7 +16,8 @@ struct Fitted {
   bool foreign = false;                      ///< something is gone
 };
 
-/// Leaves out blocks of chains, and what was remembered of tasks, parameters and timelines, that the network does not have.
+/// Leaves out blocks of chains, and what was remembered of tasks, parameters and timelines,
+/// that the network does not have.
 Fitted fit(const model::Network& network, const flattening::Chains& chains,
            const temporal::FlexiblePlan& plan);
 

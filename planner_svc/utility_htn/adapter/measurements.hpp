@@ -1,4 +1,5 @@
-// What executed activities took and brought: the executive tells when they ended, the owners of their commands the rest (R76, R101, R116).
+// What executed activities took and brought: the executive tells when they ended,
+// the owners of their commands the rest (R76, R101, R116).
 #pragma once
 
 #include <functional>
@@ -26,8 +27,8 @@ class Measurements {
   void hear(const engine::CommandResult& result);
   /// Takes that the measurements of these activities stand in the values already: another process took them.
   void resume(std::set<std::string> taken) { taken_ = std::move(taken); }
-  /// Returns what can be learned by now: a duration at its activity's end, energy, power and values when the results of all commands are
-  /// there.
+  /// Returns what can be learned by now: a duration at its activity's end, energy, power and values when the results of
+  /// all commands are there.
   std::vector<Measurement> take(const model::Network& network);
   /// Forgets all other activities.
   void keep_only(const std::function<bool(const std::string&)>& is_kept);

@@ -1,5 +1,5 @@
-// What the engine expects of its plan, for operators and for whoever sends data: the downlink schedule, utility by rank, energy, and the
-// science subway map (R110–R115, R127).
+// What the engine expects of its plan, for operators and for whoever sends data: the downlink schedule, utility by
+// rank, energy, and the science subway map (R110–R115, R127).
 #pragma once
 
 #include <cstdint>
@@ -26,19 +26,21 @@ struct Situation {
 /// Returns the network's ranks, each with what earns utility there (R113).
 std::vector<engine::UtilityRank> ranks_of(const model::Network& network);
 
-/// Returns which data go with which downlink of the plan, and what does not and why. Data that exist have the ids under which they were
-/// heard, those that are planned "request/task/product"; several of one name are numbered.
+/// Returns which data go with which downlink of the plan, and what does not and why. Data that exist have the ids under
+/// which they were heard, those that are planned "request/task/product"; several of one name are numbered.
 engine::DownlinkSchedule schedule_of(const Situation& situation);
 
 /// Returns what the schedule tells each downlink to send, in order.
 std::map<cycle::TaskId, std::vector<std::string>> products_by_task(const engine::DownlinkSchedule& schedule);
 
-/// Makes outlooks, and remembers for them what the cycle forgets: chains that have ended, the newest kMostEnded, and what was predicted of
-/// chains before they began. A restarted process remembers none, and tells for begun chains what the network holds of them.
+/// Makes outlooks, and remembers for them what the cycle forgets: chains that have ended, the newest kMostEnded, and
+/// what was predicted of chains before they began. A restarted process remembers none, and tells for begun chains what
+/// the network holds of them.
 class Outlooks {
  public:
   static constexpr std::size_t kMostEnded = 1'000;
-  /// The factors of the robust mode (search/robust.hpp): by which each cost is multiplied in the worst and in the best case.
+  /// The factors of the robust mode (search/robust.hpp): by which each cost is multiplied in the
+  /// worst and in the best case.
   static constexpr double kWorst = 1.1;
   static constexpr double kBest = 0.9;
 

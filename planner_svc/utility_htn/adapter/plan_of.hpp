@@ -22,8 +22,8 @@ struct Frame {
   std::set<std::string> measured{};  ///< activities whose measurements are in the values already
 };
 
-/// Gives time points to links; they keep them as long as they are in the plan, and then others may have them. So the number of points is
-/// bounded by what plans hold at once, and not by what the mission has ever held (R82).
+/// Gives time points to links; they keep them as long as they are in the plan, and then others may have them. So the
+/// number of points is bounded by what plans hold at once, and not by what the mission has ever held (R82).
 class Points {
  public:
   /// Point 1 bounds what holds from the origin on: values of internal timelines, and what is done.
@@ -43,15 +43,16 @@ class Points {
   std::set<temporal::TimePoint> taken_;  // even ones, each with the one that follows
 };
 
-/// Returns the plan: blocks that are not over with all their links, each not before its planned start, pushed for as long as its wait
-/// timeout; a token for each block, which holds its chain's name and number; and from the origin to Points::kPast one token for each
-/// thing of the past that is needed to go on after a restart. What was committed in `told` stands as it does there (R78).
+/// Returns the plan: blocks that are not over with all their links, each not before its planned start, pushed for as
+/// long as its wait timeout; a token for each block, which holds its chain's name and number; and from the origin to
+/// Points::kPast one token for each thing of the past that is needed to go on after a restart. What was committed in
+/// `told` stands as it does there (R78).
 temporal::FlexiblePlan plan_of(const model::Network& network, const flattening::Chains& chains,
                                const cycle::Cycle& cycle, const Frame& frame,
                                const temporal::FlexiblePlan& told, Points& points);
 
-/// Returns an activity without a command that gives internal timelines the values they have (R73); a plan that comes whole begins
-/// with it.
+/// Returns an activity without a command that gives internal timelines the values they have (R73); a plan that comes
+/// whole begins with it.
 temporal::PlanActivity initial_activity(const model::Network& network, const cycle::Past& past,
                                         const Frame& frame);
 

@@ -38,8 +38,8 @@ UtilityEngine::UtilityEngine(const engine::Setup& setup, model::Network network,
 
 UtilityEngine::~UtilityEngine() = default;
 
-// The first cycle cannot commit what would have to start at once. What began before it and has no command, as a view of Earth, holds for
-// the rest of its time; a command that is late is missed.
+// The first cycle cannot commit what would have to start at once. What began before it and has no command, as a view of
+// Earth, holds for the rest of its time; a command that is late is missed.
 void UtilityEngine::begin_fixed(Time origin) {
   if (std::exchange(has_begun_, true)) return;
   const Time first = origin + network_.cycle.commit_window;
@@ -90,7 +90,8 @@ StepOutput UtilityEngine::step(const StepInputs& inputs) {
   return out;
 }
 
-// The word that the plan has ended may come before the word of how its last task ended. Who takes that for a failure does it twice.
+// The word that the plan has ended may come before the word of how its last task ended.
+// Who takes that for a failure does it twice.
 void UtilityEngine::await_ends(Time now) {
   if (!plan_ended_) return;
   const auto runs = [](const cycle::Link& link) { return link.stage == cycle::Stage::running; };
@@ -156,7 +157,8 @@ void UtilityEngine::hear_end(const engine::EndedGoal& ended) {
   std::erase_if(blocking_, [&](const auto& one) { return one.issuer == ended.issuer && one.id == ended.id; });
 }
 
-// Of an internal timeline only the ground says anything, and its word counts as that of who reports. Claims are nobody's to set.
+// Of an internal timeline only the ground says anything, and its word counts as that of who reports.
+// Claims are nobody's to set.
 void UtilityEngine::hear_observation(const engine::Observation& observation) {
   newest_.insert_or_assign(observation.timeline, observation.value);
   const auto timeline =

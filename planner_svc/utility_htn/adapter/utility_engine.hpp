@@ -1,5 +1,5 @@
-// The utility-driven engine as planner_svc steps it (R66, R77–R81): it hears observations, goals and what became of tasks, runs its
-// cycle at the process interval, and sends versions of its plan.
+// The utility-driven engine as planner_svc steps it (R66, R77–R81): it hears observations, goals and what became of
+// tasks, runs its cycle at the process interval, and sends versions of its plan.
 #pragma once
 
 #include <map>
@@ -18,8 +18,8 @@
 
 namespace roci::planner::utility_htn::adapter {
 
-/// Plans the network that is the mission's model. A goal of kind `request` asks for the network's task that its argument `task` names,
-/// template or not, and is served by it alone; every other goal is served by the whole plan.
+/// Plans the network that is the mission's model. A goal of kind `request` asks for the network's task that its
+/// argument `task` names, template or not, and is served by it alone; every other goal is served by the whole plan.
 class UtilityEngine final : public engine::SteppedEngine {
  public:
   /// The network is checked already.

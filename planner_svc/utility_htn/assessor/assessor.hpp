@@ -1,5 +1,5 @@
-// An Assessor says what a task would be worth in its context (MEXEC, section IV.C.2, R115), and keeps that apart from what executed
-// tasks turned out to be worth.
+// An Assessor says what a task would be worth in its context (MEXEC, section IV.C.2, R115), and keeps that apart from
+// what executed tasks turned out to be worth.
 #pragma once
 
 #include <cstdint>
@@ -34,8 +34,8 @@ struct Context {
   std::span<const model::TaskIndex> closed;   ///< requests that are done, failed for good or withdrawn
 };
 
-/// Predicts chains again and again while nothing but what is planned changes, as in a search: what else a prediction depends on is looked
-/// at once.
+/// Predicts chains again and again while nothing but what is planned changes, as in a search: what else a prediction
+/// depends on is looked at once.
 class Forecast {
  public:
   virtual ~Forecast() = default;
@@ -44,8 +44,8 @@ class Forecast {
   virtual void plan(std::span<const std::uint32_t> planned) = 0;
   /// Takes one chain more, which starts after all that is planned.
   virtual void plan_next(std::uint32_t chain) = 0;
-  /// Returns what Assessor::predicted() does after what is planned; where that breaks a rule of the mission, perhaps another vector that
-  /// does.
+  /// Returns what Assessor::predicted() does after what is planned; where that breaks a rule of the mission, perhaps
+  /// another vector that does.
   virtual temporal::RankVector predicted(std::uint32_t chain) const = 0;
 };
 
@@ -54,15 +54,15 @@ class Assessor {
  public:
   virtual ~Assessor() = default;
 
-  /// Returns the utility that is expected of a chain when it follows what is planned. One whose first score that is not 0 is below 0
-  /// would break a rule of the mission: no plan holds it (R114).
+  /// Returns the utility that is expected of a chain when it follows what is planned. One whose first score that is not
+  /// 0 is below 0 would break a rule of the mission: no plan holds it (R114).
   virtual temporal::RankVector predicted(std::uint32_t chain, const Context& context) const = 0;
   /// Returns predictions for contexts that are this one but for what is planned. Assessor and context outlive it.
   virtual std::unique_ptr<Forecast> forecast(const Context& context) const;
   /// Returns no less, rank by rank, than predicted() in any context that the plan may still grow into.
   virtual temporal::RankVector most(std::uint32_t chain, const Context& context) const = 0;
-  /// Returns whether the prediction depends on what is planned, or that of others on this chain being planned. All others are asked
-  /// for once in a search.
+  /// Returns whether the prediction depends on what is planned, or that of others on this chain being planned. All
+  /// others are asked for once in a search.
   virtual bool contextual(std::uint32_t chain, const Context& context) const = 0;
   /// Returns which rule the chain would break in this context, as a sentence for people; empty: none.
   virtual std::string objection(std::uint32_t chain, const Context& context) const;

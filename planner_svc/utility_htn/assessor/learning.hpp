@@ -24,10 +24,11 @@ struct Learned {
   std::vector<std::string> refused{};  ///< one plain sentence each; these values stay as they were
 };
 
-/// Replaces the parameters that the task learns (Task::learns), and no others, by what gives exactly the measured duration, energy or
-/// power in later predictions of the task; a site's parameters are its own, so other sites' predictions stay. A value that is not finite
-/// or out of the parameter's range is refused. The duration is learned first, since energy depends on it. A parameter that is learned from
-/// a value gets this value; one that the commands did not bring is refused, too.
+/// Replaces the parameters that the task learns (Task::learns), and no others, by what gives exactly the measured
+/// duration, energy or power in later predictions of the task; a site's parameters are its own, so other sites'
+/// predictions stay. A value that is not finite or out of the parameter's range is refused. The duration is learned
+/// first, since energy depends on it. A parameter that is learned from a value gets this value; one that the commands
+/// did not bring is refused, too.
 Learned learn(const model::Network& network, model::TaskIndex task, const Measured& measured,
               model::Values& values);
 

@@ -108,7 +108,8 @@ RankVector SubwayAssessor::sampling(std::uint32_t chain, const Context& context,
   return out + at_rank(rank, (next == stops_[chain] ? 1.0 : -1.0) - out[rank]);
 }
 
-// What does not depend on what is planned is looked at once: values and signatures, and so what a chain is worth by itself.
+// What does not depend on what is planned is looked at once: values and signatures,
+// and so what a chain is worth by itself.
 class SubwayAssessor::MapForecast final : public Forecast {
  public:
   MapForecast(const SubwayAssessor& assessor, const Context& context)
@@ -236,7 +237,8 @@ SubwayState SubwayAssessor::state(const Context& context) const {
   return out;
 }
 
-// What the chain's own tasks are worth; only what is not sent is weighted, since communication utility is constant (section II.C).
+// What the chain's own tasks are worth; only what is not sent is weighted,
+// since communication utility is constant (section II.C).
 RankVector SubwayAssessor::own_worth(const Chain& chain, const Context& context, double estimated) const {
   const std::size_t weighted = std::size_t{context.network.subway.rank} + 1;
   RankVector out;

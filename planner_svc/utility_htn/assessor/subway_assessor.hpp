@@ -14,16 +14,17 @@ namespace roci::planner::utility_htn::assessor {
 
 /// Predicts chains that sample a target by the map, all others as the network says.
 ///
-/// Of a chain that samples the target to which the map leads after what is planned, the score at the map's rank is 1; of any other
-/// target's it is −1, which no plan holds. At the rank below, what its tasks are worth is multiplied by the target's estimated value,
-/// but for communication, whose utility is constant. To that comes what supports the sample without being part of the chain, as the
-/// site's excavation: what existing data of it turned out to be worth, or else what is predicted of it where it is planned. A chain
-/// that opens a site for samples without taking one itself scores −1 where the map does not lead to that site.
+/// Of a chain that samples the target to which the map leads after what is planned, the score at the map's rank is 1;
+/// of any other target's it is −1, which no plan holds. At the rank below, what its tasks are worth is multiplied by
+/// the target's estimated value, but for communication, whose utility is constant. To that comes what supports the
+/// sample without being part of the chain, as the site's excavation: what existing data of it turned out to be worth,
+/// or else what is predicted of it where it is planned. A chain that opens a site for samples without taking one itself
+/// scores −1 where the map does not lead to that site.
 class SubwayAssessor final : public Assessor {
  public:
-  /// Looks up once which chains sample which target, which chains open a site, and which tasks support all samples of a site: those that
-  /// its openers hold, or chains of at least two of its targets, and no other chain. With two sites and more, what changes a timeline
-  /// for which only samples of one site wait opens that site.
+  /// Looks up once which chains sample which target, which chains open a site, and which tasks support all samples of a
+  /// site: those that its openers hold, or chains of at least two of its targets, and no other chain. With two sites
+  /// and more, what changes a timeline for which only samples of one site wait opens that site.
   SubwayAssessor(const model::Network& network, const flattening::Chains& chains);
 
   temporal::RankVector predicted(std::uint32_t chain, const Context& context) const override;

@@ -27,21 +27,22 @@ class SubwayState {
   SubwayState(const model::SubwayMap& map, const model::Values& values,
               std::span<const double> timelines_now);
 
-  /// Notes that a sample is planned. As long as its signature is unknown it counts as positive: when it turns out to be negative, the
-  /// plan is made again.
+  /// Notes that a sample is planned. As long as its signature is unknown it counts as positive: when it turns out to be
+  /// negative, the plan is made again.
   void plan(Stop stop);
   /// Notes that nobody asks for a sample there any more, as after a failure: the map leads past it.
   void close(Stop stop);
   /// Returns whether the target was sampled, is planned or closed.
   bool taken(Stop stop) const;
 
-  /// Returns the target that the map leads to: at the site that is begun, as long as all its signatures are positive and fewer than
-  /// `most_samples` are taken; else at the untouched site of greatest estimated value. Targets of a site go by estimated value, equal
-  /// ones in the order of the network. Nothing: the line ends.
+  /// Returns the target that the map leads to: at the site that is begun, as long as all its signatures are positive
+  /// and fewer than `most_samples` are taken; else at the untouched site of greatest estimated value. Targets of a site
+  /// go by estimated value, equal ones in the order of the network. Nothing: the line ends.
   std::optional<Stop> next() const;
 
-  /// Returns how likely a positive signature is at a site: the mean of a beta distribution whose prior is the site's value by vision, as
-  /// if from kPriorSamples samples, after all known signatures: those of the site count fully, those of other sites by kElsewhere.
+  /// Returns how likely a positive signature is at a site: the mean of a beta distribution whose prior is the site's
+  /// value by vision, as if from kPriorSamples samples, after all known signatures: those of the site count fully,
+  /// those of other sites by kElsewhere.
   double chance(std::uint32_t site) const;
   /// Returns the target's weight by visual inspection × chance of its site, within [0, 1].
   double estimated(Stop stop) const;

@@ -18,7 +18,8 @@ bool holds(const Question& question, const temporal::timelines::Constraint& cons
   return within(value, constraint.lowest, constraint.highest);
 }
 
-// Returns up to which steps the task can account for those from `step` on, trying every decomposition. The gap is that to the step before.
+// Returns up to which steps the task can account for those from `step` on, trying every decomposition.
+// The gap is that to the step before.
 std::set<std::size_t> ends_of(const Question& question, const Block& block, model::TaskIndex index,
                               std::size_t step, Duration shortest, Duration longest) {
   const model::Task& task = question.network.tasks[index];

@@ -156,8 +156,8 @@ void check_sources(const Question& question, Faults& out) {
 
 }  // namespace
 
-// What has begun goes on with downlinks as long as the network says, whatever limits say by then. What was made longer than that, and what
-// is new, keeps them.
+// What has begun goes on with downlinks as long as the network says, whatever limits say by then. What was made longer
+// than that, and what is new, keeps them.
 void check_sessions(const Question& question, Faults& out) {
   constexpr double kNone = std::numeric_limits<double>::infinity();
   const double of_one = parameter(question, "downlink_limit_j", kNone);

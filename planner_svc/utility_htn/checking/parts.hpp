@@ -21,8 +21,9 @@ void check_sessions(const Question& question, Faults& out);
 void check_downlinks(const Question& question, Faults& out);
 void check_subway_map(const Question& question, Faults& out);
 
-/// Returns the requests of which no way to do them can come about, by the states that are reached now or by anything that is planned or
-/// still asked for. Templates that are asked for are not known here, so more may be returned than there are.
+/// Returns the requests of which no way to do them can come about, by the states that are reached now or by anything
+/// that is planned or still asked for. Templates that are asked for are not known here,
+/// so more may be returned than there are.
 std::set<model::TaskIndex> out_of_reach(const Question& question);
 
 /// Prints "task 'x' at 12 s".

@@ -1,5 +1,5 @@
-// What the independent checker is asked: one version of a plan, what was there before, and what was observed. It is told in types of its own,
-// so that no mistake of the planner can hide in a shared one.
+// What the independent checker is asked: one version of a plan, what was there before, and what was observed. It is
+// told in types of its own, so that no mistake of the planner can hide in a shared one.
 #pragma once
 
 #include <cstdint>
@@ -71,7 +71,8 @@ struct Question {
   const model::Values& values;
   std::vector<Block> plan;
   std::vector<Block> before{};  ///< the version that this one follows
-  /// What runs or has succeeded of chains that were broken off: it counts on timelines, and is no decomposition any more.
+  /// What runs or has succeeded of chains that were broken off: it counts on timelines,
+  /// and is no decomposition any more.
   std::vector<Step> rests{};
   Downlinks downlinks{};
   /// Otherwise the plan does not say what goes with which downlink, and that is not checked.

@@ -1,5 +1,5 @@
-// Which requests can still be done at all, when states once reached count as lasting: every way to do every request, one after the other,
-// until nothing new comes to pass.
+// Which requests can still be done at all, when states once reached count as lasting: every way to do every request,
+// one after the other, until nothing new comes to pass.
 #include <algorithm>
 #include <set>
 

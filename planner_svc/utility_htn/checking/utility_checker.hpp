@@ -10,8 +10,8 @@
 
 namespace roci::planner::utility_htn::checking {
 
-/// Reads blocks, times and commitments off a plan's activities, windows and tokens, and has faults() compute everything anew. Downlinks
-/// are not part of a FlexiblePlan and are not looked at here.
+/// Reads blocks, times and commitments off a plan's activities, windows and tokens, and has faults() compute everything
+/// anew. Downlinks are not part of a FlexiblePlan and are not looked at here.
 class UtilityChecker final : public engine::Checker {
  public:
   std::vector<std::string> faults(const engine::CheckedPlan& checked) const override;

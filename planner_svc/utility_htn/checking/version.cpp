@@ -146,8 +146,8 @@ class Reader {
     }
   }
 
-  // A block that is not whole, or of which a step has failed, is no plan any more. What has begun of it counts; what is committed does up
-  // to the link that has failed, and is skipped behind it.
+  // A block that is not whole, or of which a step has failed, is no plan any more. What has begun of it counts; what is
+  // committed does up to the link that has failed, and is skipped behind it.
   void keep(std::uint32_t number, Block& block) {
     std::ranges::sort(block.steps, {}, &Step::id);
     bool whole = whole_.contains(number) && std::ranges::none_of(block.steps, [&](const Step& step) {

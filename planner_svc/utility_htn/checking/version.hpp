@@ -19,8 +19,9 @@ struct Version {
   std::set<std::uint32_t> over;       ///< numbers of those that have ended
   model::Values values;               ///< of parameters
   std::vector<Observation> internal;  ///< of timelines that nobody reports, as of the version
-  /// Of reported timelines: what a task that runs by itself has begun with, as a view of Earth, or what a command that has ended within the last
-  /// interval was to bring about. Each is expected at any time, though something else was reported last.
+  /// Of reported timelines: what a task that runs by itself has begun with, as a view of Earth, or what a command that
+  /// has ended within the last interval was to bring about. Each is expected at any time,
+  /// though something else was reported last.
   std::vector<Observation> expected;
   std::vector<model::TaskIndex> closed;  ///< requests that are done or withdrawn
   std::vector<std::string> faults;       ///< of the form
@@ -29,7 +30,8 @@ struct Version {
 /// Returns the number of a block.
 std::uint32_t number_of(const Block& block);
 
-/// Reads a plan. What has begun or ended has its actual times, and what is late begins or ends at `now`; `progress` may be null.
+/// Reads a plan. What has begun or ended has its actual times,
+/// and what is late begins or ends at `now`; `progress` may be null.
 Version version_of(const model::Network& network, const temporal::FlexiblePlan& plan,
                    const temporal::Progress* progress, temporal::Time now);
 

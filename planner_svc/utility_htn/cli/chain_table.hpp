@@ -21,7 +21,8 @@ ChainRow row_of(const model::Network& network, const flattening::Chain& chain, c
 /// Lists the chains, then the greatest cost of each batch's tasks together.
 std::string chain_table(const model::Network& network, const flattening::Chains& chains);
 
-/// Holds `network`, `budget`, `ranks` and `chains`, each with `task`, `batch`, `utility`, `cost`, `duration_s`, `links` and `when`.
+/// Holds `network`, `budget`, `ranks` and `chains`, each with `task`, `batch`, `utility`, `cost`,
+/// `duration_s`, `links` and `when`.
 std::string chain_json(const model::Network& network, const flattening::Chains& chains);
 
 }  // namespace roci::planner::utility_htn::cli

@@ -18,14 +18,16 @@ struct Output {
   bool json = false;
 };
 
-/// Prints all that is wrong with a network, each fault with its place and remedy, or in one line what the network holds.
+/// Prints all that is wrong with a network, each fault with its place and remedy,
+/// or in one line what the network holds.
 ExitCode check(const std::filesystem::path& file, const Output& output);
 
 /// Prints every chain with its utility, what it takes from the budget, and its duration.
 ExitCode chains(const std::filesystem::path& file, const Output& output);
 
-/// Prints the plan that the planner would begin with, and why what is not in it is not; of the tasks that are named every way, of all others the way
-/// that is worth most. `changes` are NAME=VALUE, a parameter or a timeline's first value. A wrong name or value ends with wrong_use.
+/// Prints the plan that the planner would begin with, and why what is not in it is not; of the tasks that are named
+/// every way, of all others the way that is worth most. `changes` are NAME=VALUE, a parameter or a timeline's first
+/// value. A wrong name or value ends with wrong_use.
 ExitCode explain(const std::filesystem::path& file, const std::vector<std::string>& tasks,
                  const std::vector<std::string>& changes, const Output& output);
 

@@ -1,4 +1,5 @@
-// The plan that the planner would begin with, and why what is not in it is not (R119): for authors, before anything flies.
+// The plan that the planner would begin with, and why what is not in it is not (R119):
+// for authors, before anything flies.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +13,8 @@
 
 namespace roci::planner::utility_htn::cli {
 
-/// Is what is asked: values that stand in place of priors, by parameter, and what the budget holds if that is not its first value.
+/// Is what is asked: values that stand in place of priors, by parameter,
+/// and what the budget holds if that is not its first value.
 struct WhatIf {
   std::map<std::string, double> values{};
   std::map<std::string, double> initial{};  ///< first values of timelines
@@ -43,14 +45,17 @@ struct FirstPlan {
   std::uint64_t explored = 0;
 };
 
-/// Plans the whole network from its first values, as the planner does in its first cycle at mission time 0, with the network's exploration bound
-/// and its downlinks. Throws std::invalid_argument, with the remedy, for a name that the network does not have and for a value out of its range.
+/// Plans the whole network from its first values, as the planner does in its first cycle at mission time 0, with the
+/// network's exploration bound and its downlinks. Throws std::invalid_argument, with the remedy, for a name that the
+/// network does not have and for a value out of its range.
 FirstPlan first_plan(const model::Network& network, const WhatIf& asked);
 
-/// Prints what is planned, the sum, and what is not planned and why: of the named tasks every way, of all others the way that is worth most.
+/// Prints what is planned, the sum, and what is not planned and why: of the named tasks every way,
+/// of all others the way that is worth most.
 std::string plan_text(const model::Network& network, const FirstPlan& plan,
                       const std::vector<std::string>& tasks);
-/// Holds `network`, `ranks`, `budget`, `planned`, `unplanned` (`task`, `why`), `utility`, `cost`, `complete`, `explored`.
+/// Holds `network`, `ranks`, `budget`, `planned`, `unplanned` (`task`, `why`), `utility`,
+/// `cost`, `complete`, `explored`.
 std::string plan_json(const model::Network& network, const FirstPlan& plan);
 
 }  // namespace roci::planner::utility_htn::cli

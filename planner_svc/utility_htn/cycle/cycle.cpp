@@ -116,7 +116,8 @@ void Cycle::ended(TaskId task, Time at, bool succeeded, const std::string& cause
   notes_.push_back(failed.id + " failed" + (cause.empty() ? "" : ": " + cause));
 }
 
-// What a command was to bring about and nobody has reported for a whole interval has not come about: the report before it stands.
+// What a command was to bring about and nobody has reported for a whole interval has not come about:
+// the report before it stands.
 void Cycle::believe_reports(Time now) {
   std::erase_if(unreported_, [&](const auto& unreported) {
     const auto [timeline, since] = unreported;
@@ -145,7 +146,8 @@ std::string Cycle::set_value(model::ParameterIndex parameter, double value) {
            " and " + std::to_string(known.highest) + "; the value before stays";
   if (past_.values[parameter] == value) return {};
   past_.values[parameter] = value;
-  // What has not begun is placed anew: its starts are those of the value before. The rest of what has begun takes what it takes now.
+  // What has not begun is placed anew: its starts are those of the value before.
+  // The rest of what has begun takes what it takes now.
   for (Block& one : blocks_) {
     take_out(one);
     if (one.begun()) last_anew(one);
@@ -224,8 +226,9 @@ bool Cycle::commit(Time now) {
   return any;
 }
 
-// What should have begun or ended by now and has not is expected to be late by as much again, an hour more at most (R76). So what is
-// long overdue moves the plan a few times and not in every cycle. Returns whether what is expected has changed.
+// What should have begun or ended by now and has not is expected to be late by as much again, an hour more at most
+// (R76). So what is long overdue moves the plan a few times and not in every cycle.
+// Returns whether what is expected has changed.
 bool Cycle::follow(Time now) {
   bool changed = false;
   for (Block& one : blocks_)
@@ -249,7 +252,8 @@ Time Cycle::expected(Time due, Time now) const {
   return now + std::clamp(now - due, network_.cycle.process_interval, kFarthestExpectation);
 }
 
-// A link starts behind the one before it. The first that is late may begin at any time, and holds what it needs until then.
+// A link starts behind the one before it. The first that is late may begin at any time,
+// and holds what it needs until then.
 void Cycle::await_start(Block& of, std::size_t index, Time now) {
   Link& late = of.links[index];
   const Duration length = this->length(of, index);
@@ -367,8 +371,8 @@ Time Cycle::free_until(const Link& of) const {
   return out;
 }
 
-// Data that turned out larger or smaller than foreseen make planned downlinks longer or shorter (R127); what would run into something fixed
-// or committed goes with a later one.
+// Data that turned out larger or smaller than foreseen make planned downlinks longer or shorter (R127); what would run
+// into something fixed or committed goes with a later one.
 void Cycle::fit_downlinks() {
   if (delivery_ == nullptr) return;
   sessions_.look(blocks_, *delivery_);

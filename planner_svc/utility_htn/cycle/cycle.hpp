@@ -1,5 +1,5 @@
-// The planning cycle (MEXEC, section IV.A.3, R77–R82): commits, consolidates, schedules, repairs and optimizes, in this order, on a
-// network whose timelines are kept in step with what is observed and executed.
+// The planning cycle (MEXEC, section IV.A.3, R77–R82): commits, consolidates, schedules, repairs and optimizes, in this
+// order, on a network whose timelines are kept in step with what is observed and executed.
 #pragma once
 
 #include <cstdint>
@@ -31,7 +31,8 @@ struct Settings {
   bool downlinks = true;        ///< data without a downlink are not generated (R127); otherwise all get home
   bool schedules_again = true;  ///< also after the first time; otherwise the first plan is all there is
   bool robust = false;          ///< plans are judged by the worst of more, less and predicted energy
-  /// What was observed must differ from what was foreseen by this share of the timeline's first value before the cycle optimizes anew.
+  /// What was observed must differ from what was foreseen by this share of the timeline's first value before
+  /// the cycle optimizes anew.
   double noticeable = 0.005;
   /// A request that failed so often is withdrawn.
   std::uint32_t most_failures = 3;
@@ -56,7 +57,8 @@ struct Past {
   friend bool operator==(const Past&, const Past&) = default;
 };
 
-/// Holds plan and timelines. Between cycles it takes in observations and what became of tasks; only run() changes the plan.
+/// Holds plan and timelines. Between cycles it takes in observations and what became of tasks;
+/// only run() changes the plan.
 class Cycle {
  public:
   /// The network is checked. All outlive this.
@@ -94,8 +96,8 @@ class Cycle {
   search::PlannedData data() const;
   /// Returns the requests that wait for a place, in the order of the network.
   std::vector<model::TaskIndex> waiting() const;
-  /// Returns the requests, in the order of the network, that are done, failed for good, withdrawn, or out of reach (flattening/reach.hpp):
-  /// no plan holds them until something changes.
+  /// Returns the requests, in the order of the network, that are done, failed for good, withdrawn, or out of reach
+  /// (flattening/reach.hpp): no plan holds them until something changes.
   std::vector<model::TaskIndex> closed(temporal::Time now) const;
 
  private:

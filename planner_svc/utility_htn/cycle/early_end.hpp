@@ -15,10 +15,11 @@ struct EarlyEnd {
   temporal::Time end{0};
 };
 
-/// Looks at what runs by itself and draws all the time, as a hotel load, planned to the end of the mission. Where the budget does not last so
-/// long, the mission ends before: half of what is left is for being there, and half for having something to do, so that what is worth most
-/// is done in time. It ends before only where the budget does not last by `reported` either, its newest report: what was drawn since then does
-/// not decide that, as who judges the plan knows the report alone. Nothing: the budget lasts.
+/// Looks at what runs by itself and draws all the time, as a hotel load, planned to the end of the mission. Where the
+/// budget does not last so long, the mission ends before: half of what is left is for being there, and half for having
+/// something to do, so that what is worth most is done in time. It ends before only where the budget does not last by
+/// `reported` either, its newest report: what was drawn since then does not decide that, as who judges the plan knows
+/// the report alone. Nothing: the budget lasts.
 std::optional<EarlyEnd> early_end(const model::Network& network, const model::Values& values,
                                   const temporal::timelines::Timelines& timelines,
                                   const std::vector<Block>& blocks, temporal::Time now, double reported);

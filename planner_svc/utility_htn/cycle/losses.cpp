@@ -1,4 +1,5 @@
-// What was planned and is not any more, with the reason (R119): whoever reads what a cycle did sees what the mission has lost.
+// What was planned and is not any more, with the reason (R119):
+// whoever reads what a cycle did sees what the mission has lost.
 #include <map>
 #include <set>
 #include <vector>

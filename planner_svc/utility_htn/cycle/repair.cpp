@@ -1,4 +1,5 @@
-// What gives way where the plan does not hold any more: what is late moves what follows it, and what conflicts is moved or taken out (R76, R81).
+// What gives way where the plan does not hold any more: what is late moves what follows it, and what conflicts is moved
+// or taken out (R76, R81).
 #include <algorithm>
 #include <optional>
 #include <set>
@@ -75,8 +76,8 @@ bool Cycle::keep_rules(Time now, Report& report) {
   return before.size() < order.size();
 }
 
-// What has moved to another sol may take more of it than its limit permits: downlinks that were made longer take less, and then what has not
-// begun gives way, the last one first. Returns whether some sol was overdrawn.
+// What has moved to another sol may take more of it than its limit permits: downlinks that were made longer take less,
+// and then what has not begun gives way, the last one first. Returns whether some sol was overdrawn.
 bool Cycle::keep_limits(Report& report) {
   if (delivery_ == nullptr) return false;
   auto overdrawn = delivery_->overdrawn_sols(data().downlinks, past_.values);
@@ -99,8 +100,8 @@ bool Cycle::keep_limits(Report& report) {
   return true;
 }
 
-// Downlinks of other lengths, and what gave way to a limit, may leave the rest in conflict: then that is repaired, and may overdraw a sol in its
-// turn.
+// Downlinks of other lengths, and what gave way to a limit, may leave the rest in conflict: then that is repaired, and
+// may overdraw a sol in its turn.
 void Cycle::settle(Time now, Report& report) {
   bool repaired = false;
   for (int turn = 0; turn < kMostTurns && keep_limits(report); ++turn) {
@@ -155,9 +156,9 @@ void Cycle::drop(const Block& waiting, const std::string& why, Report& report) {
   to_schedule_ = true;
 }
 
-// Puts the rest of a block that has begun where it fits. Where it finds no place beside all others, the rests of all that has begun are
-// placed anew, in the order in which they would go on; and what has not begun gives way, that which comes first before the others, and is
-// scheduled again. What is fixed stands.
+// Puts the rest of a block that has begun where it fits. Where it finds no place beside all others, the rests of all
+// that has begun are placed anew, in the order in which they would go on; and what has not begun gives way, that which
+// comes first before the others, and is scheduled again. What is fixed stands.
 bool Cycle::make_room(std::uint32_t number, Time from, Report& report) {
   while (!shift(*block(number), from) && !place_rests(number, from)) {
     const Block* next = nullptr;
@@ -171,7 +172,8 @@ bool Cycle::make_room(std::uint32_t number, Time from, Report& report) {
   return true;
 }
 
-// Returns whether the rests of all blocks that have begun find places, that of `first` before the others; else nothing is changed.
+// Returns whether the rests of all blocks that have begun find places, that of `first` before the others;
+// else nothing is changed.
 bool Cycle::place_rests(std::uint32_t first, Time from) {
   const auto rest = [](const Block& one) {
     return std::ranges::find(one.links, Stage::planned, &Link::stage);

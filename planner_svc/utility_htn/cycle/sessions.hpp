@@ -8,7 +8,8 @@
 
 namespace roci::planner::utility_htn::cycle {
 
-/// Returns what all that is placed will generate and send, as planned or as it turned out so far; of downlinks those that have not ended.
+/// Returns what all that is placed will generate and send, as planned or as it turned out so far;
+/// of downlinks those that have not ended.
 search::PlannedData data_of(const std::vector<Block>& blocks, const model::Network& network,
                             const flattening::Chains& chains, const model::Values& values);
 
@@ -21,9 +22,9 @@ class Sessions {
 
   /// Looks anew for the next downlink of what has begun, where data wait on board.
   void look(const std::vector<Block>& blocks, const delivery::Delivery& delivery);
-  /// Returns what a downlink takes. Of one that is committed that is what the executive was told. Of another one of what has begun it is what
-  /// the data take that wait for it, as far as its limit and that of its sol permit beside the other downlinks in `blocks`. It is never less
-  /// than the network says, which holds for what has not begun.
+  /// Returns what a downlink takes. Of one that is committed that is what the executive was told. Of another one of
+  /// what has begun it is what the data take that wait for it, as far as its limit and that of its sol permit beside
+  /// the other downlinks in `blocks`. It is never less than the network says, which holds for what has not begun.
   temporal::Duration length(const std::vector<Block>& blocks, const Block& of, std::size_t link,
                             const delivery::Delivery& delivery, const model::Values& values) const;
 

@@ -204,7 +204,8 @@ Delivery::Question Delivery::question(const search::PlannedData& planned, const 
     downlink::Window& window = out.windows.emplace_back(rules_.window(one, values));
     window.id = network_.tasks[one.task].id;
     if (one.start >= now) continue;
-    // One that runs has only what is left of its time: the product that it is sending it began with when the last one was sent.
+    // One that runs has only what is left of its time: the product that it is sending it began with
+    // when the last one was sent.
     const double before = Rules::joules(window);
     window.start = std::clamp(last_sent_, window.start, window.latest_end);
     window.energy_limit_j = std::max(0.0, window.energy_limit_j - (before - Rules::joules(window)));
@@ -218,7 +219,8 @@ Delivery::Question Delivery::question(const search::PlannedData& planned, const 
   return out;
 }
 
-// The radio does not break off what it has begun. If it takes longer than what is left, other data must not have that room.
+// The radio does not break off what it has begun. If it takes longer than what is left,
+// other data must not have that room.
 void Delivery::keep_what_is_sent(Question& question, Time now) const {
   for (std::size_t w = 0; w < question.windows.size(); ++w) {
     const search::PlannedDownlink& running = question.downlinks[w];
@@ -244,7 +246,8 @@ void Delivery::keep_what_is_sent(Question& question, Time now) const {
   }
 }
 
-// What a schedule that another planner has told lets a downlink send that runs, as far as it is known. It goes on whoever plans.
+// What a schedule that another planner has told lets a downlink send that runs, as far as it is known.
+// It goes on whoever plans.
 std::vector<std::string> Delivery::sent_by(const search::PlannedDownlink& downlink, const Question& question,
                                            const downlink::Window& left) const {
   std::vector<std::string> out;

@@ -1,4 +1,5 @@
-// Joins the search, the products that exist and the Downlink Manager (MEXEC, section IV.C.2 and appendix A; R110, R111, R115, R127).
+// Joins the search, the products that exist and the Downlink Manager (MEXEC, section IV.C.2 and appendix A;
+// R110, R111, R115, R127).
 #pragma once
 
 #include <cstdint>
@@ -15,7 +16,8 @@
 
 namespace roci::planner::utility_htn::delivery {
 
-/// Says what has become of data, in the order of ProductFate in idl/command.idl. Only what is stored waits for a downlink.
+/// Says what has become of data, in the order of ProductFate in idl/command.idl.
+/// Only what is stored waits for a downlink.
 enum class Fate { stored, sent, received, discarded, left_behind, lost };
 
 /// Is data that was generated on board.
@@ -73,33 +75,39 @@ struct Counts {
   downlink::Counts manager{};   ///< the others
 };
 
-/// Knows what is on board and what planned downlinks can carry. The same history and question always give the same answer.
+/// Knows what is on board and what planned downlinks can carry.
+/// The same history and question always give the same answer.
 ///
-/// A downlink lasts as long as the network's parameter says, whatever it carries: so it stands on the timelines with its whole energy, and
-/// the limits of a downlink and of a sol (R111) hold for that. It can carry rate × duration. What of it is needed, the schedule tells.
+/// A downlink lasts as long as the network's parameter says, whatever it carries: so it stands on the timelines with
+/// its whole energy, and the limits of a downlink and of a sol (R111) hold for that. It can carry rate × duration. What
+/// of it is needed, the schedule tells.
 class Delivery {
  public:
   /// The network outlives this.
   explicit Delivery(const model::Network& network) : network_(network), rules_(network) {}
 
-  /// Takes in that another network stands where `before` stood. What a task generated that it does not have waits all the same.
+  /// Takes in that another network stands where `before` stood.
+  /// What a task generated that it does not have waits all the same.
   void replaced(const model::Network& before);
-  /// Takes in a product's newest state; returns whether anything is new. Its request is what it was as soon as nobody knows it any more,
-  /// since the plan forgets chains that have ended. A score that is negative or not finite counts as 0, one above a
-  /// million as a million.
+  /// Takes in a product's newest state; returns whether anything is new. Its request is what it was as soon as nobody
+  /// knows it any more, since the plan forgets chains that have ended. A score that is negative or not finite counts as
+  /// 0, one above a million as a million.
   /// `now` is when its owner said so: a downlink that runs has been sending the next product since the last one was sent.
   bool hear(Existing product, temporal::Time now = temporal::Time{0});
-  /// Takes in what downlinks were told to send, in order: of one that runs, the first that is still on board is being sent. Before anything was
-  /// told somebody else may have told it, in the same order: then that is the first one that a downlink of its length has room for.
+  /// Takes in what downlinks were told to send, in order: of one that runs, the first that is still on board is being
+  /// sent. Before anything was told somebody else may have told it, in the same order: then that is the first one that
+  /// a downlink of its length has room for.
   void told(std::map<temporal::timelines::TaskId, std::vector<std::string>> products) {
     has_told_ = true;
     told_ = std::move(products);
   }
-  /// Takes in what an executed downlink took, for the limit of its sol. `activity` is unique; what is told again counts once.
+  /// Takes in what an executed downlink took, for the limit of its sol. `activity` is unique;
+  /// what is told again counts once.
   void executed(std::uint64_t activity, model::TaskIndex task, temporal::Time start, temporal::Time end,
                 const model::Values& values);
 
-  /// Gives the search the existing products, and the question that it asks of each candidate. `this` outlives the problem.
+  /// Gives the search the existing products, and the question that it asks of each candidate.
+  /// `this` outlives the problem.
   void join(search::Problem& problem, temporal::Time now);
   /// Returns all data that were generated, whatever became of them, with what they are worth (R115).
   std::span<const assessor::ExistingProduct> products() const { return products_; }
@@ -107,13 +115,14 @@ class Delivery {
   std::span<const Existing> existing() const { return existing_; }
   /// Returns whether the network names a rate: otherwise all data get home without a schedule.
   bool limited() const { return rules_.has_rate(); }
-  /// Returns how long the data take that wait on board, of all that these requests have generated but what is residual. A downlink that is
-  /// to bring them home lasts that long at least (R127).
+  /// Returns how long the data take that wait on board, of all that these requests have generated but what is residual.
+  /// A downlink that is to bring them home lasts that long at least (R127).
   temporal::Duration transmission(const std::set<model::TaskIndex>& requests,
                                   const model::Values& values) const;
   /// Returns the requests whose data wait on board, without residual ones.
   std::set<model::TaskIndex> requests_with_data() const;
-  /// Returns how long a downlink that starts then may last by the limit of one downlink and, beside all others, by that of its sol.
+  /// Returns how long a downlink that starts then may last by the limit of one downlink and,
+  /// beside all others, by that of its sol.
   temporal::Duration longest(model::TaskIndex task, temporal::Time start,
                              std::span<const search::PlannedDownlink> others,
                              const model::Values& values) const;
@@ -128,8 +137,8 @@ class Delivery {
 
   /// Returns whether the data that are not standing yet have room, each in time, beside all that stands.
   bool admits(const search::PlannedData& planned, const model::Values& values, temporal::Time now);
-  /// Returns when the first sol ends whose limit is exceeded by downlinks that are not committed; none where it is no limit of a sol that they
-  /// exceed.
+  /// Returns when the first sol ends whose limit is exceeded by downlinks that are not committed; none where it is no
+  /// limit of a sol that they exceed.
   std::optional<temporal::Time> next_sol(const search::PlannedData& planned,
                                          const model::Values& values) const;
   /// Returns which data go with which downlink.

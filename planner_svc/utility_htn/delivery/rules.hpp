@@ -1,4 +1,5 @@
-// What a network says of its downlinks in general: the rate and the limits of energy (R111), as parameters of well-known names.
+// What a network says of its downlinks in general: the rate and the limits of energy (R111),
+// as parameters of well-known names.
 #pragma once
 
 #include <cstdint>
@@ -13,16 +14,17 @@
 
 namespace roci::planner::utility_htn::delivery {
 
-/// Finds the parameters `rate_bytes_per_s`, `downlink_limit_j`, `sol_limit_j` and `sol_s`. A network without a rate has no downlinks to
-/// speak of: then all data get home. What else is not there is no limit; a sol is 86,400 s long where the network does not say.
+/// Finds the parameters `rate_bytes_per_s`, `downlink_limit_j`, `sol_limit_j` and `sol_s`. A network without a rate has
+/// no downlinks to speak of: then all data get home. What else is not there is no limit; a sol is 86,400 s long where
+/// the network does not say.
 class Rules {
  public:
   explicit Rules(const model::Network& network);
 
   bool has_rate() const { return rate_.has_value(); }
   double bytes_per_s(const model::Values& values) const { return value(rate_, values, 0); }
-  /// Returns the window of a planned downlink. It is as long as the network says that the task takes; a task that takes no time or has
-  /// no rate carries nothing.
+  /// Returns the window of a planned downlink. It is as long as the network says that the task takes; a task that takes
+  /// no time or has no rate carries nothing.
   downlink::Window window(const search::PlannedDownlink& planned, const model::Values& values) const;
   /// Returns what a transmission as long as the window takes.
   static double joules(const downlink::Window& window);

@@ -1,4 +1,5 @@
-// How many bytes one downlink can carry, and what bounds it (MEXEC, appendix A: Earth in view, energy, heat, rate; R111, R126).
+// How many bytes one downlink can carry, and what bounds it (MEXEC, appendix A: Earth in view, energy,
+// heat, rate; R111, R126).
 #pragma once
 
 #include <cstdint>

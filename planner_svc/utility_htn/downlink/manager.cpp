@@ -25,7 +25,8 @@ std::uint32_t first_window(const Product& product, std::span<const Window> windo
   return static_cast<std::uint32_t>(found - windows.begin());
 }
 
-// Answers one question step by step: first the products that have no choice, then each of the other tiers with what is left.
+// Answers one question step by step: first the products that have no choice,
+// then each of the other tiers with what is left.
 class Question {
  public:
   Question(std::span<const Product> products, std::span<const Window> windows, const Limits& limits)
@@ -34,7 +35,8 @@ class Question {
     for (const Product& product : products) ranks_ = std::max(ranks_, product.utility.scores().size());
   }
 
-  // Those of the higher tier, then utility, then creation come first. All are tried in their own windows before any goes later.
+  // Those of the higher tier, then utility, then creation come first.
+  // All are tried in their own windows before any goes later.
   void place_those_without_choice() {
     Indices order;
     for (std::size_t p = 0; p < products_.size(); ++p) {
@@ -231,7 +233,8 @@ bool Manager::admits(std::span<const Product> products, std::span<const Window> 
   const Fit together = fit(all, windows, limits, effort_);
   if (together.all == true) return count(together);
 
-  // Something has no room. It is only the candidates' fault if all has without them; otherwise what stays on board, or goes late, does so.
+  // Something has no room. It is only the candidates' fault if all has without them;
+  // otherwise what stays on board, or goes late, does so.
   std::vector<Product> others(products.begin(), products.end());
   std::erase_if(others, residual);
   Manager inner(effort_);

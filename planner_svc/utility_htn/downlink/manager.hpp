@@ -1,5 +1,5 @@
-// The Downlink Manager (MEXEC, appendix A, R110, R111, R125–R127, Z9, Z17, Z18): which data goes to Earth with which downlink, and whether
-// there is room for the data of one more task.
+// The Downlink Manager (MEXEC, appendix A, R110, R111, R125–R127, Z9, Z17, Z18): which data goes to Earth with which
+// downlink, and whether there is room for the data of one more task.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,8 @@
 
 namespace roci::planner::utility_htn::downlink {
 
-/// Only a window that starts when it is created or later can take it. Differences of scores below kScoreStep do not count.
+/// Only a window that starts when it is created or later can take it.
+/// Differences of scores below kScoreStep do not count.
 using Product = model::DataProduct;
 
 /// Is a downlink opportunity: Earth is in view, and the uplink that belongs to it is already taken off.
@@ -95,7 +96,8 @@ struct Effort {
   std::size_t most_variables = 2'000;  ///< pairs of product and window; above, CBC is not asked
 };
 
-/// Counts what answered the questions so far: of admits() whole questions, of assign() one each for the Mandatory and the Residual.
+/// Counts what answered the questions so far: of admits() whole questions, of assign()
+/// one each for the Mandatory and the Residual.
 struct Counts {
   std::uint64_t certificate = 0;  ///< the greedy assignment or a bound
   std::uint64_t solver = 0;
@@ -107,15 +109,16 @@ class Manager {
  public:
   explicit Manager(Effort effort = {}) : effort_(effort) {}
 
-  /// Returns the best assignment: Critical products go with the first window after their creation, Decisional with what that one has
-  /// left (both outside the solver; the higher utility first); Mandatory ones so that their summed utility is greatest, by rank; among
-  /// those, that most products are sent, and then that the windows' numbers add up to least ("earliest"). Residual ones get only what is left
-  /// over, by the same rules, and change nothing of the others. Throws std::invalid_argument for a negative or infinite score, two products of
-  /// one id, and windows out of order of their starts or with an impossible rate, power or limit.
+  /// Returns the best assignment: Critical products go with the first window after their creation, Decisional with what
+  /// that one has left (both outside the solver; the higher utility first); Mandatory ones so that their summed utility
+  /// is greatest, by rank; among those, that most products are sent, and then that the windows' numbers add up to least
+  /// ("earliest"). Residual ones get only what is left over, by the same rules, and change nothing of the others.
+  /// Throws std::invalid_argument for a negative or infinite score, two products of one id, and windows out of order of
+  /// their starts or with an impossible rate, power or limit.
   Assignment assign(std::span<const Product> products, std::span<const Window> windows, const Limits& limits);
 
-  /// Returns whether the products of one more task have room, each in time, beside all that is sent without them; a Residual candidate is
-  /// no reason to refuse as long as others are among the candidates. Throws as assign() does.
+  /// Returns whether the products of one more task have room, each in time, beside all that is sent without them; a
+  /// Residual candidate is no reason to refuse as long as others are among the candidates. Throws as assign() does.
   bool admits(std::span<const Product> products, std::span<const Window> windows, const Limits& limits,
               std::span<const Product> candidates);
 

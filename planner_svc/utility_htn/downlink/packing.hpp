@@ -1,5 +1,6 @@
-// The packing problem of the Downlink Manager in integers (MEXEC, appendix A, equations 6–14): items of a size and a value by rank go into
-// bins of a capacity, each into at most one that it may use. Bins of one sol moreover share the sol's energy.
+// The packing problem of the Downlink Manager in integers (MEXEC, appendix A, equations 6–14): items of a size and a
+// value by rank go into bins of a capacity, each into at most one that it may use.
+// Bins of one sol moreover share the sol's energy.
 #pragma once
 
 #include <compare>

@@ -154,7 +154,8 @@ class Program {
     CglMixedIntegerRounding2 roundings;
     model.addCutGenerator(&covers, -1, "covers");
     model.addCutGenerator(&roundings, -1, "roundings");
-    // Strong branching goes through hot starts, in which Clp 1.17 can end the process by an assertion once cuts are there.
+    // Strong branching goes through hot starts, in which Clp 1.17 can end the process by an
+    // assertion once cuts are there.
     model.setNumberStrong(0);
     model.setNumberBeforeTrust(0);
     model.setMaximumNodes(most_nodes);

@@ -1,5 +1,6 @@
-// Solves the packing problem exactly with CBC (COIN-OR branch and cut), rank by rank: what a higher rank has reached becomes a constraint of
-// the lower ones, so that no weights are needed and no gain of a lower rank can outweigh one of a higher (Z17).
+// Solves the packing problem exactly with CBC (COIN-OR branch and cut), rank by rank: what a higher rank has reached
+// becomes a constraint of the lower ones, so that no weights are needed and no gain of a lower rank can
+// outweigh one of a higher (Z17).
 #pragma once
 
 #include <cstdint>
@@ -17,8 +18,8 @@ struct Solved {
   std::uint32_t rank = 0;
 };
 
-/// Improves a placement that holds until the best is proven or CBC has taken `most_nodes` nodes for one of the ranks. CBC runs in the
-/// caller's thread, prints nothing and asks for no time.
+/// Improves a placement that holds until the best is proven or CBC has taken `most_nodes` nodes for one of the ranks.
+/// CBC runs in the caller's thread, prints nothing and asks for no time.
 Solved solve(const Packing& packing, const Placement& start, int most_nodes);
 
 /// Returns whether all items can be placed, or nothing when that took more than `most_nodes` nodes.

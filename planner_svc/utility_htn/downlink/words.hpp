@@ -12,8 +12,8 @@ namespace roci::planner::utility_htn::downlink {
 std::string words(Bound bound);
 std::string words(model::Tier tier);
 
-/// Returns why a product stays on board. `first` is the first window that starts after its creation, and `loads` is what the windows
-/// carry in the end.
+/// Returns why a product stays on board. `first` is the first window that starts after its creation, and `loads` is
+/// what the windows carry in the end.
 LeftOut left_out(std::span<const Product> products, std::size_t product, std::span<const Window> windows,
                  const Limits& limits, std::size_t first, std::span<const Load> loads);
 

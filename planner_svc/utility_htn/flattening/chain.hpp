@@ -1,4 +1,5 @@
-// Pre-processing (MEXEC, section III.A, R92): the hierarchy of a network becomes chains of primitive tasks, once, before any search.
+// Pre-processing (MEXEC, section III.A, R92): the hierarchy of a network becomes chains of primitive tasks,
+// once, before any search.
 #pragma once
 
 #include <set>
@@ -28,8 +29,8 @@ struct Chains {
 /// The most chains that one requested task may have, since their number is a product.
 inline constexpr std::size_t kMostChains = model::kMostChains;
 
-/// Flattens all that is requested. Throws std::invalid_argument with the task's id for one with more than kMostChains; the network is
-/// checked already, so parents have no cycle.
+/// Flattens all that is requested. Throws std::invalid_argument with the task's id for one with more than kMostChains;
+/// the network is checked already, so parents have no cycle.
 Chains flatten(const model::Network& network);
 /// Flattens these templates, too, so that they can be requested later.
 Chains flatten(const model::Network& network, const std::set<model::TaskIndex>& templates);
@@ -40,7 +41,8 @@ Chains flatten_all(const model::Network& network);
 /// Returns the templates that contingencies request (R69).
 std::set<model::TaskIndex> templates_on_call(const model::Network& network);
 
-/// Returns what timelines see of a chain's link. The first one moreover asks at its start for what selects its decompositions (R89).
+/// Returns what timelines see of a chain's link. The first one moreover asks at its start for what selects
+/// its decompositions (R89).
 temporal::timelines::Footprint footprint(const model::Network& network, const Chain& chain, std::size_t link,
                                          const model::Values& values);
 

@@ -1,5 +1,5 @@
-// How large a task network may be (R83): it fits into memory, together with the chains that are made of it. What is larger is refused
-// whole, and what comes in binary form before memory is taken for it.
+// How large a task network may be (R83): it fits into memory, together with the chains that are made of it. What is
+// larger is refused whole, and what comes in binary form before memory is taken for it.
 #pragma once
 
 #include <cstddef>

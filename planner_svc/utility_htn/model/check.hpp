@@ -1,5 +1,5 @@
-// Everything that a network must fulfil before it is used (R78, R83), told at once: one plain sentence for each fault, with the part of the
-// network and what to do about it.
+// Everything that a network must fulfil before it is used (R78, R83), told at once: one plain sentence for each fault,
+// with the part of the network and what to do about it.
 #pragma once
 
 #include <cstdint>
@@ -21,9 +21,9 @@ struct Fault {
   std::string remedy;  ///< may be empty
 };
 
-/// Returns all faults, in the order of the network. With none but warnings every index in the network is in range, every number finite
-/// or a bound, the hierarchy without cycles, and all of it within model/bounds.hpp; what a parameter may become within its range keeps
-/// durations and scores valid.
+/// Returns all faults, in the order of the network. With none but warnings every index in the network is in range,
+/// every number finite or a bound, the hierarchy without cycles, and all of it within model/bounds.hpp; what a
+/// parameter may become within its range keeps durations and scores valid.
 std::vector<Fault> check(const Network& network);
 
 /// Returns whether none of them is more than a warning.

@@ -1,5 +1,6 @@
-// The task network of a utility-driven mission as plain data (MEXEC, sections II.C and IV.A.1, R67–R71, R83, R87–R89): read from YAML or
-// from its binary form, checked whole, and never changed afterwards; what is learned on the way are values of its parameters.
+// The task network of a utility-driven mission as plain data (MEXEC, sections II.C and IV.A.1, R67–R71, R83, R87–R89):
+// read from YAML or from its binary form, checked whole, and never changed afterwards; what is learned on the way are
+// values of its parameters.
 #pragma once
 
 #include <cstdint>
@@ -90,8 +91,8 @@ struct Subtask {
   friend bool operator==(const Subtask&, const Subtask&) = default;
 };
 
-/// Is one way to do a parent task (R87). It can be chosen when all of `when` hold at its first start: so the phase of the mission on a
-/// timeline selects among them (figure 4).
+/// Is one way to do a parent task (R87). It can be chosen when all of `when` hold at its first start: so the phase of
+/// the mission on a timeline selects among them (figure 4).
 struct Decomposition {
   std::string name;
   std::vector<temporal::timelines::Constraint> when{};
@@ -99,7 +100,8 @@ struct Decomposition {
   friend bool operator==(const Decomposition&, const Decomposition&) = default;
 };
 
-/// Tells which parameter is learned when a task has ended (R116): from what it took, or from a value that was computed on board (R108).
+/// Tells which parameter is learned when a task has ended (R116): from what it took,
+/// or from a value that was computed on board (R108).
 enum class Measure { duration_s, energy, power, value };
 struct Learns {
   Measure measure = Measure::duration_s;
@@ -184,7 +186,8 @@ struct Network {
   friend bool operator==(const Network&, const Network&) = default;
 };
 
-/// Are the current values of all parameters, by ParameterIndex; those of a network that has learned nothing are its priors.
+/// Are the current values of all parameters, by ParameterIndex;
+/// those of a network that has learned nothing are its priors.
 using Values = std::vector<double>;
 Values priors(const Network& network);
 

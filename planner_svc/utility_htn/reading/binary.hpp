@@ -32,8 +32,8 @@ bool is_binary(std::string_view bytes);
 /// Writes a network that was checked; equal networks equally.
 std::string to_binary(const model::Network& network);
 
-/// Reads a network whole or throws BinaryError. It is well formed and within model/bounds.hpp by its counts; model::check() says
-/// whether it can be used. Memory is taken for what is there, never for what a count promises.
+/// Reads a network whole or throws BinaryError. It is well formed and within model/bounds.hpp by its counts;
+/// model::check() says whether it can be used. Memory is taken for what is there, never for what a count promises.
 model::Network parse_binary(std::string_view bytes);
 
 /// Returns the CRC-32 of IEEE 802.3, as zlib computes it.

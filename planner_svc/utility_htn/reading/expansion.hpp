@@ -26,14 +26,15 @@ class Expansion {
   Expansion(Sets sets, mission::Findings* findings) : sets_(std::move(sets)), findings_(findings) {}
 
   using Read = std::function<void(const std::string& key, const Source& value)>;
-  /// Reads each field of a mapping, repeated as its `for` says. Faults of one repetition end the others of that field: they would be
-  /// the same.
+  /// Reads each field of a mapping, repeated as its `for` says. Faults of one repetition end the others of that field:
+  /// they would be the same.
   void each_field(const Source& mapping, const Read& read);
   /// Reads each item of a list likewise.
   void each_item(const Source& list, const std::function<void(const Source&)>& read);
   /// Returns the values that "[0, 1, 2]", "{from: 1, to: 22}" or the name of a set stand for.
   std::vector<std::string> values(const Source& source);
-  /// Counts items of lists that are read, as often as they are: aliases of YAML may stand for many. Throws Enough beyond the bounds.
+  /// Counts items of lists that are read, as often as they are: aliases of YAML may stand for many.
+  /// Throws Enough beyond the bounds.
   void spend(const Source& list, std::size_t items);
   /// Throws Enough where so many faults are noted that nobody reads more.
   void stop_at_many_findings() const;

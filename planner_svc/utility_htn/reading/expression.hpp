@@ -15,7 +15,8 @@ struct Expression {
   std::string fault{};  ///< what is wrong, with its remedy; empty: nothing
 };
 
-/// Reads "12", "-arm_w", "2 * arm_w + 5", "3600 + 4 * 151200". A '-' inside of a name belongs to it, so a difference has spaces round it.
+/// Reads "12", "-arm_w", "2 * arm_w + 5", "3600 + 4 * 151200". A '-' inside of a name belongs to it,
+/// so a difference has spaces round it.
 Expression parse_expression(std::string_view text);
 
 /// Is "TIMELINE = WORD", "TIMELINE != WORD", "TIMELINE in WORD, WORD", "TIMELINE >= NUMBER", "TIMELINE <= NUMBER",

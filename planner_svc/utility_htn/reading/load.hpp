@@ -10,8 +10,8 @@
 
 namespace roci::planner::utility_htn::reading {
 
-/// Reads a network file, YAML or binary, and checks the network. All faults are noted, each with file and line, or file and byte, and
-/// with its remedy. Returns nothing where one is an error: a network is taken whole or not at all (R83).
+/// Reads a network file, YAML or binary, and checks the network. All faults are noted, each with file and line, or file
+/// and byte, and with its remedy. Returns nothing where one is an error: a network is taken whole or not at all (R83).
 std::optional<model::Network> load_network(const std::filesystem::path& file, mission::Findings& findings);
 
 /// Does the same, and throws mission::FileError with the errors, one in each line.

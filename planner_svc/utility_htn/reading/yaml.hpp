@@ -24,13 +24,14 @@ struct Read {
   Places places{};
 };
 
-/// Reads a file and those that it includes, without model::check(). Every fault is noted with its place; nothing is thrown.
+/// Reads a file and those that it includes, without model::check().
+/// Every fault is noted with its place; nothing is thrown.
 Read read_yaml(const std::filesystem::path& file, mission::Findings& findings);
 /// Reads a text that came otherwise; `name` stands for its file.
 Read parse_yaml(const std::string& text, const std::filesystem::path& name, mission::Findings& findings);
 
-/// Writes a network that was checked, in full: nothing repeated, nothing included, equal networks equally. What is read of it is equal
-/// to the network, if the constraints of each task stand in the order of their phases.
+/// Writes a network that was checked, in full: nothing repeated, nothing included, equal networks equally. What is read
+/// of it is equal to the network, if the constraints of each task stand in the order of their phases.
 std::string to_yaml(const model::Network& network);
 
 }  // namespace roci::planner::utility_htn::reading

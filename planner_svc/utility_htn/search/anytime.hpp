@@ -23,8 +23,9 @@ struct Effort {
   std::uint64_t all_entries = 20'000;  ///< no pass begins after as many
 };
 
-/// Plans pass by pass, until a pass has seen everything, the gap is 0, the effort is spent, or the problem's `stop` says so. `better`
-/// is told each plan that is better than all before; its utility never falls, and of equal ones its cost. Returns the last of them.
+/// Plans pass by pass, until a pass has seen everything, the gap is 0, the effort is spent, or the problem's `stop`
+/// says so. `better` is told each plan that is better than all before; its utility never falls, and of equal ones its
+/// cost. Returns the last of them.
 Progress search_anytime(const Problem& problem, const Effort& effort,
                         const std::function<void(const Progress&)>& better = {});
 

@@ -50,7 +50,8 @@ std::vector<Piece> hull(std::vector<Piece> choices) {
   return out;
 }
 
-// The hull of a site: what its pieces bring once the charge is paid, and the straight line from the origin that lies above it.
+// The hull of a site: what its pieces bring once the charge is paid,
+// and the straight line from the origin that lies above it.
 std::vector<Piece> charged(std::vector<Piece> pieces, double charge) {
   std::ranges::stable_sort(pieces, steeper);
   Piece line{charge, 0};
@@ -229,7 +230,8 @@ class Bound {
         }
       }
       if (!opener) continue;
-      // A request that only opens the site belongs to it; one that may do something else, or samples another site, does not.
+      // A request that only opens the site belongs to it; one that may do something else,
+      // or samples another site, does not.
       if (!inside && (outside_openers < options.size() || !claimed_.insert(request).second)) return false;
       if (!inside) joined.push_back(request);
       const double extra = std::max(0.0, *opener - other.value_or(0.0));

@@ -114,8 +114,8 @@ void Exploration::enqueue(NodeId id) {
   queue_.push({node.utility + best.ratio, table_.request(best.chain).priority, id, best.chain, best.utility});
 }
 
-// Places the entry's chain after the plan here; where that can be done, a new node comes. Downlinks for which their sol has no energy left are
-// tried in later ones.
+// Places the entry's chain after the plan here; where that can be done, a new node comes. Downlinks for which their sol
+// has no energy left are tried in later ones.
 void Exploration::extend(const Entry& entry, Statistics& statistics) {
   const std::size_t mark = problem_.anchored.mark();
   std::optional<Time> downlinks_from;

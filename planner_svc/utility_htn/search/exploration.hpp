@@ -14,8 +14,9 @@ namespace roci::planner::utility_htn::search {
 
 /// Explores partial plans that extend what is held fixed by chains of one batch.
 ///
-/// The queue of algorithm 1 holds each node with each chain that may extend it. Here each node waits once, with the best of the chains
-/// that are left to it; when that is taken, the node waits with its next. The order in which pairs are taken is the same.
+/// The queue of algorithm 1 holds each node with each chain that may extend it. Here each node waits once, with the
+/// best of the chains that are left to it; when that is taken, the node waits with its next.
+/// The order in which pairs are taken is the same.
 class Exploration {
  public:
   /// Takes what is held fixed, which stands on the timelines, and the chains of the batch.

@@ -35,8 +35,8 @@ struct Node {
   std::uint32_t next_edge = 0;        ///< likewise among those that are not contextual, which all nodes share
 };
 
-/// Holds all nodes of a batch, and keeps the timelines at one of them: from node to node only what the two do not share is taken back
-/// and placed.
+/// Holds all nodes of a batch, and keeps the timelines at one of them: from node to node only what the two do not share
+/// is taken back and placed.
 class NodeStore {
  public:
   /// Begins with the root, the plan that stands on the timelines.

@@ -37,16 +37,17 @@ struct RobustOutcome {
   std::uint64_t explored = 0;  ///< entries of all searches
 };
 
-/// Returns what a plan brings when each of its tasks costs `factor` times what is predicted: chains run by start, a chain that would
-/// bring the sum to the budget or above ends the mission, and it and what follows count nothing. A chain's worth is what the Assessor
-/// predicts after those before it.
+/// Returns what a plan brings when each of its tasks costs `factor` times what is predicted: chains run by start, a
+/// chain that would bring the sum to the budget or above ends the mission, and it and what follows count nothing. A
+/// chain's worth is what the Assessor predicts after those before it.
 temporal::RankVector score_under(const Problem& problem, const Plan& plan, double factor);
 
 /// Returns the score by which a plan is held against others: the worst or the mean of what it brings under the factors.
 temporal::RankVector judged(const Problem& problem, const Plan& plan, const RobustSettings& settings);
 
-/// Plans once for each factor with the budget divided by it, scores each plan under all factors, and chooses the one of the best
-/// judged score; of equal ones the one whose factor comes first. Throws std::invalid_argument for no factor or one that is not above 0.
+/// Plans once for each factor with the budget divided by it, scores each plan under all factors, and chooses the one of
+/// the best judged score; of equal ones the one whose factor comes first. Throws std::invalid_argument for no factor or
+/// one that is not above 0.
 RobustOutcome search_robust(const Problem& problem, const RobustSettings& settings, std::uint64_t entries);
 
 }  // namespace roci::planner::utility_htn::search

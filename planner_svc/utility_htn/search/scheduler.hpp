@@ -29,8 +29,8 @@ class Scheduler {
  public:
   virtual ~Scheduler() = default;
 
-  /// Returns the starts of all links, which then stand on the timelines without a new conflict; or nothing, and the timelines are as
-  /// they were.
+  /// Returns the starts of all links, which then stand on the timelines without a new conflict; or nothing, and the
+  /// timelines are as they were.
   virtual std::optional<std::vector<temporal::Time>> schedule(
       std::span<const Link> links, temporal::timelines::Timelines& timelines) const = 0;
 };
@@ -38,13 +38,13 @@ class Scheduler {
 /// How often EarliestScheduler moves an earlier link to its next valid interval, for a link that has no place at all.
 inline constexpr std::size_t kMostBacktracks = 8;
 
-/// Starts each link as early as it can. Where a link would have to wait longer than its longest gap, the one before is put off just as
-/// far as needed, `attempts` times at most.
+/// Starts each link as early as it can. Where a link would have to wait longer than its longest gap, the one before is
+/// put off just as far as needed, `attempts` times at most.
 ///
-/// It finds the earliest placement of all links whenever there is one and the attempts suffice, if what permits a link does not depend
-/// on when the links before it run (but for the gaps). Without longest gaps it needs no attempts. Where it does depend, a placement
-/// may be missed: of the links before one that has no place, only the beginnings of their next valid intervals are tried,
-/// kMostBacktracks times.
+/// It finds the earliest placement of all links whenever there is one and the attempts suffice, if what permits a link
+/// does not depend on when the links before it run (but for the gaps). Without longest gaps it needs no attempts. Where
+/// it does depend, a placement may be missed: of the links before one that has no place, only the beginnings of their
+/// next valid intervals are tried, kMostBacktracks times.
 class EarliestScheduler final : public Scheduler {
  public:
   explicit EarliestScheduler(std::size_t attempts = 256) : attempts_(attempts) {}
@@ -55,9 +55,10 @@ class EarliestScheduler final : public Scheduler {
   std::size_t attempts_;
 };
 
-/// Starts each link that has a preferred start as near to it as it can, the earlier of two equally near; the others as early as they
-/// can. It goes back over the valid intervals of earlier links, from the nearest to the farthest, `attempts` placements at most, and
-/// then does as EarliestScheduler does. So it places whatever that places, but may miss a nearer placement within an interval.
+/// Starts each link that has a preferred start as near to it as it can, the earlier of two equally near; the others as
+/// early as they can. It goes back over the valid intervals of earlier links, from the nearest to the farthest,
+/// `attempts` placements at most, and then does as EarliestScheduler does. So it places whatever that places, but may
+/// miss a nearer placement within an interval.
 class NearestScheduler final : public Scheduler {
  public:
   explicit NearestScheduler(std::size_t attempts = 256) : attempts_(attempts) {}

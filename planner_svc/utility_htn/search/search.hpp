@@ -1,4 +1,5 @@
-// The utility-maximizing search over partial plans (MEXEC, section III.A and algorithm 1, R93–R97, with the readings Z7, Z8 and Z12).
+// The utility-maximizing search over partial plans (MEXEC, section III.A and algorithm 1, R93–R97,
+// with the readings Z7, Z8 and Z12).
 #pragma once
 
 #include <cstddef>
@@ -49,8 +50,8 @@ model::DataProduct predicted(const model::Task& request, const model::Task& task
 /// Says whether everything that a partial plan would generate gets its downlink (R127).
 using DownlinkQuestion = std::function<bool(const PlannedData&)>;
 
-/// Says of a partial plan whose answer was "no" from when on its uncommitted downlinks might do better, since another sol has a limit of its
-/// own (R111); none: at no other time.
+/// Says of a partial plan whose answer was "no" from when on its uncommitted downlinks might do better, since another
+/// sol has a limit of its own (R111); none: at no other time.
 using LaterDownlinks = std::function<std::optional<temporal::Time>(const PlannedData&)>;
 
 /// So many sols are tried for the downlinks of one chain.
@@ -117,15 +118,15 @@ struct Outcome {
 /// The most bytes that the nodes of one batch may take. A search that reaches it ends as at its exploration bound.
 inline constexpr std::size_t kMostNodeBytes = std::size_t{24} << 20U;
 
-/// Plans: first the fixed requests at their times, then batch by batch, each held fixed for the next (R97). Within a batch the pair of
-/// a partial plan P and a chain T with the greatest P.utility + T.utility / T.cost is taken from the queue, rank by rank; T is placed
-/// whole or not at all, and the new plan is paired with every chain whose request it does not hold and with which its cost stays below
-/// the budget (R94, R95). `entries` pairs are taken in each batch at most. The plan of greatest utility is best, of two equal ones the
-/// cheaper, then the one found first (R96).
+/// Plans: first the fixed requests at their times, then batch by batch, each held fixed for the next (R97). Within a
+/// batch the pair of a partial plan P and a chain T with the greatest P.utility + T.utility / T.cost is taken from the
+/// queue, rank by rank; T is placed whole or not at all, and the new plan is paired with every chain whose request it
+/// does not hold and with which its cost stays below the budget (R94, R95). `entries` pairs are taken in each batch at
+/// most. The plan of greatest utility is best, of two equal ones the cheaper, then the one found first (R96).
 ///
-/// Equal problems give equal outcomes. Utilities are compared to a billionth, so that sums of equal scores in another order are equal.
-/// A chain that costs nothing has an infinite ratio where it has utility. Equal entries are taken by priority of the request, the
-/// older plan first, then the chain that comes first in the network.
+/// Equal problems give equal outcomes. Utilities are compared to a billionth, so that sums of equal scores in another
+/// order are equal. A chain that costs nothing has an infinite ratio where it has utility. Equal entries are taken by
+/// priority of the request, the older plan first, then the chain that comes first in the network.
 Outcome search(const Problem& problem, std::uint64_t entries);
 /// Takes as many entries as the network says.
 Outcome search(const Problem& problem);

@@ -1,14 +1,15 @@
-// What four strategies of planning and execution are expected to bring home (MEXEC, sections II.C, III.D and V.A, equations 1–5,
-// R103–R106). All utilities are sums over what has arrived; a plan's tasks fail independently of each other with one probability (Z16).
+// What four strategies of planning and execution are expected to bring home (MEXEC, sections II.C, III.D and V.A,
+// equations 1–5, R103–R106). All utilities are sums over what has arrived; a plan's tasks fail independently of each
+// other with one probability (Z16).
 #pragma once
 
 #include <span>
 
 namespace roci::planner::utility_htn::strategies {
 
-/// Splits the probability that one attempt of a task fails by the cheapest mechanism that can resolve the failure. All four are joint
-/// probabilities of one attempt, not conditional on failure (Z5: section II.C gives conditional ones, section V.A joint ones, and
-/// equations 2–5 need the joint ones).
+/// Splits the probability that one attempt of a task fails by the cheapest mechanism that can resolve the failure. All
+/// four are joint probabilities of one attempt, not conditional on failure (Z5: section II.C gives conditional ones,
+/// section V.A joint ones, and equations 2–5 need the joint ones).
 struct FailureProbabilities {
   double fail = 0;        ///< P(fail)
   double flexible = 0;    ///< P(FE)
@@ -16,17 +17,19 @@ struct FailureProbabilities {
   double ground = 0;      ///< P(Ground)
 };
 
-/// Equation 1, which is lost in the paper (Z6), read as P(fail) = P(FE) + P(Replan) + P(Ground): flexible execution resolves a share of all
-/// failures, replanning a share of the others, the ground the rest, so that none stays. All arguments lie within [0, 1]; otherwise
-/// std::invalid_argument is thrown (R106: 0.1, 0.3, 0.6 gives 0.03, 0.042, 0.028).
+/// Equation 1, which is lost in the paper (Z6), read as P(fail) = P(FE) + P(Replan) + P(Ground): flexible execution
+/// resolves a share of all failures, replanning a share of the others, the ground the rest, so that none stays. All
+/// arguments lie within [0, 1]; otherwise std::invalid_argument is thrown (R106: 0.1, 0.3,
+/// 0.6 gives 0.03, 0.042, 0.028).
 FailureProbabilities split(double fail, double flexible_share, double replanning_share_of_rest);
 
-/// Returns the probability that a failure is resolved so, given that there is one (section II.C): the joint one over P(fail), 0 without
-/// failures.
+/// Returns the probability that a failure is resolved so, given that there is one (section II.C): the joint one over
+/// P(fail), 0 without failures.
 double given_failure(double joint, const FailureProbabilities& probabilities);
 
-/// Returns u_avg = Σu / Σc over the tasks of a plan. The paper prints Σ(u / c), by which b · u_avg would not be the utility of a plan
-/// that costs b and never fails (Z16). Throws std::invalid_argument when nothing costs anything or the lists differ in length.
+/// Returns u_avg = Σu / Σc over the tasks of a plan. The paper prints Σ(u / c), by which b · u_avg would not be the
+/// utility of a plan that costs b and never fails (Z16). Throws std::invalid_argument when nothing costs anything or
+/// the lists differ in length.
 double utility_per_cost(std::span<const double> utilities, std::span<const double> costs);
 
 /// Is a plan that was made without failures in mind.
@@ -70,8 +73,9 @@ double most_discoveries(double budget, double cost_each);
 /// Returns the same plan cut off where so much of its budget is spent, for curves of utility over energy.
 PlanFigures until_spent(const PlanFigures& plan, double spent);
 
-/// Returns how many tasks b really pays for when every failure costs `recovery_per_task` on the average: b / (c_avg + that). With it in the
-/// place of n, equations 3–5 are exact for a long plan; with the planned b / c_avg they are a little too low.
+/// Returns how many tasks b really pays for when every failure costs `recovery_per_task` on the average: b / (c_avg +
+/// that). With it in the place of n, equations 3–5 are exact for a long plan;
+/// with the planned b / c_avg they are a little too low.
 double tasks_paid_for(const PlanFigures& plan, double recovery_per_task);
 
 }  // namespace roci::planner::utility_htn::strategies

@@ -1,5 +1,5 @@
-// The credentials of a participant in the terms of Cyclone DDS: properties of its QoS, so that a secure run keeps the configuration of
-// its domain as it is.
+// The credentials of a participant in the terms of Cyclone DDS: properties of its QoS, so that a secure run keeps the
+// configuration of its domain as it is.
 #pragma once
 
 #include "services/vendors/cyclonedds/qos.hpp"

@@ -43,8 +43,8 @@ dds_entity_t create(const transport::TransportOptions& options, const std::strin
       "Cyclone DDS opened sockets that nothing guards; use another transport with --dds");
 }
 
-// While a link is cut, every datagram to every port of every peer that cannot be sent would be a line of its own; so would
-// every sample that does not decode: of each ten seconds the first twenty lines are logged.
+// While a link is cut, every datagram to every port of every peer that cannot be sent would be a line of its own; so
+// would every sample that does not decode: of each ten seconds the first twenty lines are logged.
 void log_to_standard_error(void*, const dds_log_data_t* entry) {
   constexpr int kLines = 20;
   constexpr std::chrono::seconds kWindow{10};
@@ -69,8 +69,8 @@ void log_to_standard_error(void*, const dds_log_data_t* entry) {
 std::string configuration(const transport::TransportOptions& options) {
   std::string peers;
   for (const auto& peer : peers_of(options)) peers += "<Peer address=\"" + peer + "\"/>";
-  // One datagram per 64 kB sample is fastest on loopback; on a network it would be fragmented by IP. There a datagram has
-  // up to 14,720 B, and a fragment is large enough for discovery in one piece, or the guard would refuse it.
+  // One datagram per 64 kB sample is fastest on loopback; on a network it would be fragmented by IP. There a datagram
+  // has up to 14,720 B, and a fragment is large enough for discovery in one piece, or the guard would refuse it.
   const std::string message_size = is_loopback(options.address) ? "<MaxMessageSize>65500B</MaxMessageSize>"
                                                                 : "<FragmentSize>8000B</FragmentSize>";
   return "<CycloneDDS><Domain Id=\"any\"><General><Interfaces><NetworkInterface address=\"" +

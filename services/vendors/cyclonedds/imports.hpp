@@ -2,9 +2,9 @@
 //
 // The seam for Cyclone DDS, which has no transport that could be chained: its two calls into the C library that matter
 // here go through its table of imports. Opening the plug-in with RTLD_DEEPBIND would bind them to it as well, but
-// then the plug-in and Cyclone DDS see another std::cerr than the program (which has a copy of its own, by copy relocation,
-// while the library's stays unconstructed: the first line logged is a crash), and libfaketime and sanitizers no longer stand
-// before them. The table touches nothing else.
+// then the plug-in and Cyclone DDS see another std::cerr than the program (which has a copy of its own, by copy
+// relocation, while the library's stays unconstructed: the first line logged is a crash), and libfaketime and
+// sanitizers no longer stand before them. The table touches nothing else.
 #pragma once
 
 #include <string_view>

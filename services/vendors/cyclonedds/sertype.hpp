@@ -23,8 +23,8 @@ extern "C" {
 
 namespace roci::services::vendors::cyclonedds {
 
-/// The keys of one type that the vendor keeps in this process, of its own samples and of received ones: it makes a sample
-/// without type for each of them, and frees it with the instance. Any thread may call it.
+/// The keys of one type that the vendor keeps in this process, of its own samples and of received ones: it makes a
+/// sample without type for each of them, and frees it with the instance. Any thread may call it.
 class LiveKeys {
  public:
   using Key = std::array<std::uint8_t, 16>;  ///< A key hash.

@@ -112,8 +112,8 @@ extern "C" int guarded_initialize(ddsi_domaingv* domain) {
   return result;
 }
 
-// The vendor takes the prefix of its domain, adds a number by chance, and lets the certificate make the prefix of the participant
-// of that: here the prefix is chosen for what comes of it, and nothing added.
+// The vendor takes the prefix of its domain, adds a number by chance, and lets the certificate make the prefix of the
+// participant of that: here the prefix is chosen for what comes of it, and nothing added.
 extern "C" dds_return_t guarded_new_participant(ddsi_guid* guid, ddsi_domaingv* domain, unsigned flags,
                                                 const ddsi_plist* settings) {
   auto& secure = secure_domains();

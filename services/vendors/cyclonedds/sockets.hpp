@@ -2,7 +2,8 @@
 //
 // Cyclone DDS 0.10 binds its receiving sockets to 0.0.0.0 whatever is configured (ddsi_udp.c: bind_to_any), so that
 // every host that reaches this one could speak to it. Here they are bound to the one configured address, and each
-// datagram passes a guard before its parser, and in a secure run what is sent, too. Participants are named after the port that they send from.
+// datagram passes a guard before its parser, and in a secure run what is sent, too. Participants are named after the
+// port that they send from.
 #pragma once
 
 #include <memory>
@@ -12,9 +13,9 @@
 
 namespace roci::services::vendors::cyclonedds {
 
-/// From its construction to its end, what this thread lets Cyclone DDS bind belongs to `guard` and is bound to `address`
-/// (IPv4, in host byte order) where the vendor asked for any; without an address it stays as the vendor wants it.
-/// In a `secure` domain every participant has a GUID prefix of which its certificate makes one that names the port.
+/// From its construction to its end, what this thread lets Cyclone DDS bind belongs to `guard` and is bound to
+/// `address` (IPv4, in host byte order) where the vendor asked for any; without an address it stays as the vendor wants
+/// it. In a `secure` domain every participant has a GUID prefix of which its certificate makes one that names the port.
 /// Throws TransportError if the library cannot be guarded: nothing is opened unguarded.
 class GuardedOpening {
  public:

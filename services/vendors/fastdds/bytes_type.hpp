@@ -33,8 +33,8 @@ class BytesType : public eprosima::fastdds::dds::TopicDataType {
   std::function<std::uint32_t()> getSerializedSizeProvider(void* data) override;
   void* createData() override;
   void deleteData(void* data) override;
-  /// Never fails for a keyed type: a sample whose key cannot be read is an instance by itself, of all its bytes, which the
-  /// reader refuses. The history of a reader aborts over a sample that has no instance.
+  /// Never fails for a keyed type: a sample whose key cannot be read is an instance by itself, of all its bytes, which
+  /// the reader refuses. The history of a reader aborts over a sample that has no instance.
   bool getKey(void* data, eprosima::fastrtps::rtps::InstanceHandle_t*, bool force_md5) override;
 
  private:

@@ -40,8 +40,8 @@ bool FastWriter::dispose(std::span<const std::uint8_t> payload) {
   return has_space(payload.size()) && writer_->dispose(&bytes, dds::HANDLE_NIL) == ReturnCode_t::RETCODE_OK;
 }
 
-// Bounds a keep-all history itself, because Fast DDS cannot limit samples without limiting instances, and knows no bytes. From
-// half of a bound on it looks whether all is acknowledged; at the bound it waits for that.
+// Bounds a keep-all history itself, because Fast DDS cannot limit samples without limiting instances, and knows no
+// bytes. From half of a bound on it looks whether all is acknowledged; at the bound it waits for that.
 bool FastWriter::has_space(std::size_t bytes) {
   if (!qos_.reliable || qos_.history_depth > 0 || qos_.max_samples <= 0) return true;
   const int samples = ++unconfirmed_;

@@ -14,7 +14,8 @@ constexpr std::uint32_t kParticipants = 0x000100c2, kHandshakes = 0x000201c3;
 constexpr std::uint16_t kEndOfList = 0x0001, kDefaultUnicast = 0x0031, kMetatrafficUnicast = 0x0032;
 constexpr std::uint32_t kUdp4 = 1;
 
-// The payload of a sample or of its first fragment behind the encapsulation, in its own byte order; empty: there is none.
+// The payload of a sample or of its first fragment behind the encapsulation,
+// in its own byte order; empty: there is none.
 ByteView payload_of(const Submessage& message, std::size_t fixed) {
   const ByteView& body = message.body;
   if (body.size() < fixed) return {};

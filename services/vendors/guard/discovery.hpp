@@ -16,7 +16,8 @@ struct Announcement {
   std::vector<Source> reached_at;
 };
 
-/// Returns the announcement of a participant in a message that passed (examine), if it has one with unicast IPv4 locators.
+/// Returns the announcement of a participant in a message that passed (examine),
+/// if it has one with unicast IPv4 locators.
 std::optional<Announcement> announcement_in(std::span<const std::uint8_t> message);
 
 /// Is what a message of a handshake is about (DDS Security 1.1, 9.3.2.5): it begins one, or answers.

@@ -33,12 +33,13 @@ class Guard {
  public:
   explicit Guard(Policy);
 
-  /// The length of what the vendor may read, at the beginning of `datagram`, which may have been changed; 0: nothing. `source`
-  /// is missing where it has no IPv4 address.
+  /// The length of what the vendor may read, at the beginning of `datagram`, which may have been changed; 0: nothing.
+  /// `source` is missing where it has no IPv4 address.
   std::size_t admit(std::span<std::uint8_t> datagram, const std::optional<Source>& source);
 
   bool is_secure() const { return policy_.secure; }
-  /// In a secure run: takes in what this process sends, and says whether nothing may be sent to this destination now (partings.hpp).
+  /// In a secure run: takes in what this process sends, and says whether nothing may be sent to this
+  /// destination now (partings.hpp).
   bool keeps_back(std::span<const std::uint8_t> datagram, const Source& destination);
   /// In a secure run: the vendor has given this participant up.
   void gave_up(const GuidPrefix&);

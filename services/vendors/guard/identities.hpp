@@ -21,8 +21,8 @@ struct Source {
   auto operator<=>(const Source&) const = default;
 };
 
-/// The first four bytes of the GUID prefix of a participant of ours: who sees it knows the one port that it speaks from,
-/// also before it has said anything.
+/// The first four bytes of the GUID prefix of a participant of ours: who sees it knows the one port that it speaks
+/// from, also before it has said anything.
 std::array<std::uint8_t, 4> prefix_start(std::uint16_t port);
 
 /// Both vendors send all that a participant says through one socket, so that whoever else uses its prefix is somebody
@@ -37,7 +37,8 @@ class Identities {
   static constexpr std::chrono::seconds kSilent{10};  ///< Three leases: the vendor has given it up.
 
   /// In a secure run a prefix comes of a certificate and names the port in its seventh and eighth byte
-  /// (certificate/guid_prefix.hpp), and no other is heard; in a plain one those of ours name it in the third and fourth.
+  /// (certificate/guid_prefix.hpp), and no other is heard; in a plain one those of ours name it
+  /// in the third and fourth.
   explicit Identities(bool secure = false) : secure_(secure) {}
 
   /// pass, taken_identity or crowd.

@@ -42,8 +42,8 @@ std::size_t strip(std::span<std::uint8_t> message, Keep keep) {
   return end;
 }
 
-// SRTPS_PREFIX, SEC_BODY, SRTPS_POSTFIX and nothing else (DDS Security 1.1, 7.3.6.6): a parser that meets the prefix later reads
-// the rest in plain.
+// SRTPS_PREFIX, SEC_BODY, SRTPS_POSTFIX and nothing else (DDS Security 1.1, 7.3.6.6): a parser that meets the prefix
+// later reads the rest in plain.
 bool is_encrypted(std::span<const std::uint8_t> message) {
   auto rest = message.subspan(kHeaderSize);
   for (const std::uint8_t id : {kEncryptionPrefix, kEncryptedBody, kEncryptionPostfix}) {

@@ -11,8 +11,8 @@ namespace roci::services::vendors::guard {
 
 using GuidPrefix = std::array<std::uint8_t, 12>;
 
-/// Whether `sender` may speak for the participant whose prefix begins `other` (of 12 bytes at least): itself, or with Cyclone DDS
-/// another one of its process, whose prefixes share their first four bytes. Of ours these name the socket.
+/// Whether `sender` may speak for the participant whose prefix begins `other` (of 12 bytes at least): itself, or with
+/// Cyclone DDS another one of its process, whose prefixes share their first four bytes. Of ours these name the socket.
 bool may_speak_for(const GuidPrefix& sender, std::span<const std::uint8_t> other);
 
 enum class ListKind { inline_qos, discovery };
@@ -23,8 +23,8 @@ struct ListVerdict {
 };
 
 /// Judges the list at the beginning of `list`: lengths, and the inner lengths of the parameters in which parsers have
-/// had faults (names, partitions, properties, key hash, status, locators). With `only_guids_of`, each GUID and key hash in
-/// it must be of one for which that participant may speak.
+/// had faults (names, partitions, properties, key hash, status, locators). With `only_guids_of`, each GUID and key hash
+/// in it must be of one for which that participant may speak.
 ListVerdict examine_parameters(const ByteView& list, ListKind,
                                const std::optional<GuidPrefix>& only_guids_of);
 

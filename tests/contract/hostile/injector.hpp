@@ -17,7 +17,8 @@ struct Datagram {
   Bytes bytes;
 };
 
-/// Hears what goes over the loopback to the ports of a domain. Throws std::system_error without the right to (CAP_NET_RAW).
+/// Hears what goes over the loopback to the ports of a domain.
+/// Throws std::system_error without the right to (CAP_NET_RAW).
 class Listener {
  public:
   explicit Listener(int domain);
@@ -37,8 +38,8 @@ class Injector {
  public:
   Injector(int domain, std::uint64_t seed);
 
-  /// Hears 50 datagrams, then sends `count` and goes on, as fast as it hears others; asks `go_on(count was reached)` all the
-  /// while.
+  /// Hears 50 datagrams, then sends `count` and goes on, as fast as it hears others; asks `go_on(count was reached)`
+  /// all the while.
   void send(std::uint64_t count, const std::function<bool(bool enough)>& go_on);
 
  private:

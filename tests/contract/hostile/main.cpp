@@ -1,5 +1,5 @@
-// contract-hostile ROLE DOMAIN …: attacks the participants of a domain with bytes of its own, through no vendor, until its
-// input ends.
+// contract-hostile ROLE DOMAIN …: attacks the participants of a domain with bytes of its own, through no vendor, until
+// its input ends.
 //   writers            on loopback, a writer on every topic, all of whose samples are malformed, again and again
 //   goals ADDRESS ID   a writer on roci/goal that writes the goal stranger/ID well-formed to the host with that address
 //   inject SEED COUNT  on loopback, mutants of the traffic that it hears and forged datagrams, COUNT at least

@@ -31,8 +31,8 @@ struct WriterDescription {
   std::vector<std::string> partitions;
 };
 
-/// Reliable and transient local, so that every reader matches. It ignores what it is sent and says everything again, which
-/// is all that a transient-local writer does for who joins late.
+/// Reliable and transient local, so that every reader matches. It ignores what it is sent and says everything again,
+/// which is all that a transient-local writer does for who joins late.
 class Participant {
  public:
   Participant(std::uint32_t target, int domain, Vendor, std::uint8_t number, std::string user_data);

@@ -1,5 +1,6 @@
-// contract-reader VENDOR DOMAIN: a participant of ours with a reader on every topic, which decodes what arrives. It ends
-// with its input. Standard output, one line each: ready | matched TOPIC (two writers) | matched all | goal ISSUER ID.
+// contract-reader VENDOR DOMAIN: a participant of ours with a reader on every topic, which decodes what arrives. It
+// ends with its input. Standard output, one line each: ready | matched TOPIC (two writers)
+// | matched all | goal ISSUER ID.
 #include <atomic>
 #include <iostream>
 #include <memory>

@@ -1,4 +1,5 @@
-// peer ROLE VENDOR DOMAIN [ADDRESS PEER]; environment: PEER_RUN, PEER_PARTITION, PEER_ANNOUNCEMENT (own: as this build's),
+// peer ROLE VENDOR DOMAIN [ADDRESS PEER]; environment: PEER_RUN, PEER_PARTITION,
+// PEER_ANNOUNCEMENT (own: as this build's),
 //   PEER_KEYS and PEER_SERVICE (a secure participant with the certificate of that service)
 //   PEER_WAYPOINTS (of the ways that a path-server answers; 2)
 //   ROLE: goal-writer, goal-reader, path-server, path-client, stranger (a goal-writer on the topic of path requests)

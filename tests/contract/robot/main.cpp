@@ -1,5 +1,5 @@
-// contract-robot OPTIONS: a service process (see --help) that says on standard output what it hears. The environment may
-// name what its participant announces (ROBOT_ANNOUNCEMENT).
+// contract-robot OPTIONS: a service process (see --help) that says on standard output what it hears. The environment
+// may name what its participant announces (ROBOT_ANNOUNCEMENT).
 #include <cstdlib>
 #include <iostream>
 

@@ -1,4 +1,5 @@
-// A key folder for a test, with the certificates of a mission (the planetary one where none is named), made by the library behind roci-keys.
+// A key folder for a test, with the certificates of a mission (the planetary one where none is named), made by the
+// library behind roci-keys.
 #pragma once
 
 #include <cstdint>

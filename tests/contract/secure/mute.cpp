@@ -1,4 +1,5 @@
-// Loaded before a process it keeps back every datagram that the process sends for as long as the file $ROCI_MUTE exists. The process hears all others meanwhile.
+// Loaded before a process it keeps back every datagram that the process sends for as long as the file $ROCI_MUTE
+// exists. The process hears all others meanwhile.
 #include <sys/socket.h>
 #include <unistd.h>
 

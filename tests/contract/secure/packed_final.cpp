@@ -1,5 +1,6 @@
-// Loaded before a process it puts three encrypted submessages (SEC_PREFIX, SEC_BODY, SEC_POSTFIX) before the last message of each handshake that
-// the process sends, as Cyclone DDS does when an acknowledgement is due in the same moment. Nobody can decrypt them yet.
+// Loaded before a process it puts three encrypted submessages (SEC_PREFIX, SEC_BODY, SEC_POSTFIX) before the last
+// message of each handshake that the process sends, as Cyclone DDS does when an acknowledgement is due in the same
+// moment. Nobody can decrypt them yet.
 #include <sys/socket.h>
 #include <sys/uio.h>
 

@@ -1,5 +1,6 @@
-// Secure participants in processes of their own, on each vendor and mixed: who has a certificate with the right rights is heard, and
-// nobody else. The goal is a topic that the ground (`roci`) and science_svc may write, and the executive may read.
+// Secure participants in processes of their own, on each vendor and mixed: who has a certificate with the right rights
+// is heard, and nobody else. The goal is a topic that the ground (`roci`) and science_svc may write,
+// and the executive may read.
 #include <gmock/gmock.h>
 
 #include <filesystem>

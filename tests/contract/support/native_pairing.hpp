@@ -1,4 +1,5 @@
-// Our transports with participants that are not ours: a program on a vendor's own API with the vendor's own generated types.
+// Our transports with participants that are not ours: a program on a vendor's own API with the
+// vendor's own generated types.
 #pragma once
 
 #include <algorithm>

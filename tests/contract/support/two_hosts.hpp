@@ -20,8 +20,8 @@ struct Host {
   std::vector<std::string> inside(const std::vector<std::string>& command) const;
 };
 
-/// Both hosts and their link, until the test ends. Without the right to make them there are none, and `refused` says so: such
-/// a test is skipped (GTEST_SKIP) with that reason.
+/// Both hosts and their link, until the test ends. Without the right to make them there are none, and `refused` says
+/// so: such a test is skipped (GTEST_SKIP) with that reason.
 class TwoHosts {
  public:
   TwoHosts();

@@ -1,4 +1,5 @@
-// Whoever adds a reader of files gives it an entry in file_readers.hpp, and with that a test that damages what it reads.
+// Whoever adds a reader of files gives it an entry in file_readers.hpp,
+// and with that a test that damages what it reads.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -6,8 +6,8 @@
 
 namespace roci::fuzz {
 
-/// By the path of the source: "TestSuite.Test" of tests/fuzz, or why there is none ("- reason"). A test fails when a source that
-/// opens a file is missing here.
+/// By the path of the source: "TestSuite.Test" of tests/fuzz, or why there is none ("- reason"). A test fails when a
+/// source that opens a file is missing here.
 inline const std::map<std::string, std::string> kFileReaders{
     {"arm_svc/setup_file.cpp", "FuzzMissions.IsTakenOrRefusedWithItsPlace"},
     {"core/mission/entry.cpp", "FuzzMissions.IsTakenOrRefusedWithItsPlace"},

@@ -1,4 +1,5 @@
-// The files of a run folder and of the folder of running missions, damaged: records, summaries, reports, counts, recordings.
+// The files of a run folder and of the folder of running missions, damaged: records, summaries,
+// reports, counts, recordings.
 #include <gtest/gtest.h>
 #include <unistd.h>
 

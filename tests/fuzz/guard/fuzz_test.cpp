@@ -1,5 +1,5 @@
-// Mutated RTPS messages: the guard reads nothing outside them (shown under AddressSanitizer, since each mutant lies in an
-// allocation of its own size) and what it lets through is well-formed when it is read again.
+// Mutated RTPS messages: the guard reads nothing outside them (shown under AddressSanitizer, since each mutant lies in
+// an allocation of its own size) and what it lets through is well-formed when it is read again.
 #include <gtest/gtest.h>
 
 #include <memory>

@@ -1,5 +1,5 @@
-// Every handler of every service, in one process: samples that decode, with any value in any member, and damaged ones, on all
-// topics at once. No service ends, hangs or lets an exception out, and each goes on.
+// Every handler of every service, in one process: samples that decode, with any value in any member, and damaged ones,
+// on all topics at once. No service ends, hangs or lets an exception out, and each goes on.
 #include <gtest/gtest.h>
 #include <unistd.h>
 

@@ -1,5 +1,5 @@
-// Mutated image files: each is read or refused with a reason that names it, takes no more memory than it has pixels, and what is
-// read can be looked at.
+// Mutated image files: each is read or refused with a reason that names it, takes no more memory than it has pixels,
+// and what is read can be looked at.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,4 +1,5 @@
-// Whatever stands in a network file, of either form, it is taken and can be used, or refused with its place; nothing else comes out.
+// Whatever stands in a network file, of either form, it is taken and can be used,
+// or refused with its place; nothing else comes out.
 #include <gtest/gtest.h>
 #include <unistd.h>
 

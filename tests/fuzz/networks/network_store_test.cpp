@@ -1,4 +1,5 @@
-// Whatever a disk makes of the networks that the ground sent, they are taken as they were written or named as damaged; nothing else comes out.
+// Whatever a disk makes of the networks that the ground sent,
+// they are taken as they were written or named as damaged; nothing else comes out.
 #include <gtest/gtest.h>
 #include <unistd.h>
 

@@ -1,4 +1,5 @@
-// Any sequence of calls on timelines: what cannot be is refused by an exception that the header names, and nothing else changes.
+// Any sequence of calls on timelines: what cannot be is refused by an exception that the header names,
+// and nothing else changes.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,5 +1,5 @@
-// Whatever bytes come on whichever topic: they are read or refused, no enumerator is one that the IDL does not have, and they
-// take no more memory than a small multiple of themselves.
+// Whatever bytes come on whichever topic: they are read or refused, no enumerator is one that the IDL does not have,
+// and they take no more memory than a small multiple of themselves.
 #include "tests/fuzz/topics/decoders.hpp"
 
 #include <gmock/gmock.h>
@@ -17,8 +17,8 @@ namespace {
 using services::node::Decoded;
 using services::transport::Payload;
 
-// What services/transport/payload_limit.hpp states: a decoded sample takes at most so many times its bytes. The rest is for the
-// value itself and its first allocations.
+// What services/transport/payload_limit.hpp states: a decoded sample takes at most so many times its bytes. The rest is
+// for the value itself and its first allocations.
 constexpr std::size_t kFactor = 16;
 constexpr std::size_t kBase = 8 * 1024;
 
@@ -66,7 +66,8 @@ TEST_P(Decoders, ReadWhatIsWhole) {
   }
 }
 
-// The payload is as long as whoever lies can make it: a count is believed only as far as there are bytes for its elements.
+// The payload is as long as whoever lies can make it: a count is believed only as far as there
+// are bytes for its elements.
 TEST_P(Decoders, LiesAboutCountsTakeNoMemory) {
   for (const std::size_t padding : {std::size_t{0}, std::size_t{256} << 10}) {
     const MadeSample sample = maker_.make(decoder().type, 2);

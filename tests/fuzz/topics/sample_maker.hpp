@@ -1,5 +1,5 @@
-// Random samples of any topic type, from the IDL alone: valid CDR in which it is known where counts, enumerators and texts
-// stand, so that a test can put lies there.
+// Random samples of any topic type, from the IDL alone: valid CDR in which it is known where counts, enumerators and
+// texts stand, so that a test can put lies there.
 #pragma once
 
 #include <cstddef>
@@ -34,11 +34,12 @@ class SampleMaker {
   SampleMaker(std::uint64_t seed, std::string run, std::vector<std::string> words)
       : random_(seed), run_(std::move(run)), words_(std::move(words)) {}
 
-  /// A whole sample of this type ("Goal"). Sequences have at most `longest` elements, and fewer the deeper they stand. Texts come
-  /// from the words of the planetary mission, so that handlers look on; members called `run` name its run.
+  /// A whole sample of this type ("Goal"). Sequences have at most `longest` elements, and fewer the deeper they stand.
+  /// Texts come from the words of the planetary mission, so that handlers look on; members called `run` name its run.
   MadeSample make(const std::string& type, std::size_t longest = 3);
 
-  /// The same bytes with one to four places changed: marks get lies, other bytes are flipped, the end is cut or repeated.
+  /// The same bytes with one to four places changed: marks get lies, other bytes are flipped,
+  /// the end is cut or repeated.
   services::transport::Payload damaged(const MadeSample& sample);
 
   std::size_t below(std::size_t bound) { return bound == 0 ? 0 : random_() % bound; }

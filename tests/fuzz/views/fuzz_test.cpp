@@ -1,5 +1,5 @@
-// Whatever a downlink schedule or a mission outlook holds, as long as it decodes: each view of it is text, JSON and a picture of bounded size, and
-// nothing else comes out.
+// Whatever a downlink schedule or a mission outlook holds, as long as it decodes: each view of it is text, JSON and a
+// picture of bounded size, and nothing else comes out.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -22,7 +22,8 @@ const Decoder& decoder_of(const std::string& type) {
   throw std::logic_error("no decoder of " + type);
 }
 
-// The most that a picture may have for each byte of its sample, and besides: a row is a few shapes with their attributes.
+// The most that a picture may have for each byte of its sample, and besides:
+// a row is a few shapes with their attributes.
 constexpr std::size_t kLargestPicture = 8U << 20U;
 
 void expect_picture(const std::string& picture) {

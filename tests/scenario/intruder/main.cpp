@@ -1,5 +1,5 @@
-// Somebody on a run's domain who knows its identity and says what he likes: commands, acknowledgements and heartbeats in
-// other services' names. He reads what to do from standard input, a line each, and prints what he hears.
+// Somebody on a run's domain who knows its identity and says what he likes: commands, acknowledgements and heartbeats
+// in other services' names. He reads what to do from standard input, a line each, and prints what he hears.
 //   intruder DDS DOMAIN RUN
 //   as NAME                             speaks in this name from now on; first as exec_svc
 //   send ACTION OWNER SUBSYSTEM COMMAND ACTIVITY ISSUED SENDER_EPOCH [argument=value …]

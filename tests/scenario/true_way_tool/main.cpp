@@ -1,4 +1,5 @@
-// Says for a scenario and a range of seeds whether a way exists for the primary on the true map: true-way MISSION SCENARIO FIRST LAST
+// Says for a scenario and a range of seeds whether a way exists for the primary on the true map:
+// true-way MISSION SCENARIO FIRST LAST
 #include <exception>
 #include <iostream>
 #include <nlohmann/json.hpp>

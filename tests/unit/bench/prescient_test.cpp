@@ -1,4 +1,5 @@
-// The planner that knows a flight beforehand: against all choices of small networks, and against flights in the same world.
+// The planner that knows a flight beforehand: against all choices of small networks,
+// and against flights in the same world.
 #include "bench/europa/prescient.hpp"
 
 #include <gmock/gmock.h>

@@ -1,4 +1,5 @@
-// The utility-driven engine and the executive of flight against a world of tasks: whole flights, each strategy, surprises.
+// The utility-driven engine and the executive of flight against a world of tasks: whole flights,
+// each strategy, surprises.
 #include "bench/europa/task_flight.hpp"
 
 #include <gmock/gmock.h>

@@ -1,5 +1,5 @@
-// A dedicated executive that dies and comes back (R145): it asks its subsystems what became of its calls, and goes on with the method
-// where it stood, if whoever commanded it still wants it; nothing is done twice.
+// A dedicated executive that dies and comes back (R145): it asks its subsystems what became of its calls, and goes on
+// with the method where it stood, if whoever commanded it still wants it; nothing is done twice.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -120,7 +120,8 @@ TEST_F(ContinuousPlanning, WhatIsCommittedStartsAndTheRestWaitsForItsCommit) {
   EXPECT_EQ(reactor.counts().planner_calls, 0U);
 }
 
-// A load that is always on and a wait that nothing ends hold no mission open whose goals are achieved; what a command runs ends by itself.
+// A load that is always on and a wait that nothing ends hold no mission open whose goals are achieved;
+// what a command runs ends by itself.
 TEST_F(ContinuousPlanning, APlanEndsWithTheLastGoalAndWhatRunsByCommand) {
   engine.image("1", CommitState::committed);
   engine.activity("load", "", 1e6).commit = CommitState::committed;
@@ -160,7 +161,8 @@ TEST_F(ContinuousPlanning, APlanEndsThoughWhatIsCommittedWaitsForWhatNeverComes)
   EXPECT_THAT(begun(), ElementsAre("1"));
 }
 
-// What the ground has set counts until an activity makes something else of it, whatever versions come and whoever asks for it again.
+// What the ground has set counts until an activity makes something else of it,
+// whatever versions come and whoever asks for it again.
 TEST_F(ContinuousPlanning, AnActivityChangesWhatTheGroundHasSet) {
   mission.ground.values = {"hold"};
   reactor = Reactor(mission);

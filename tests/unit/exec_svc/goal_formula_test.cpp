@@ -1,5 +1,5 @@
-// Goals that are more than an observed fact: derived, negated, alternatives, numbers. Planner and executive agree on when
-// they hold.
+// Goals that are more than an observed fact: derived, negated, alternatives, numbers. Planner and executive agree on
+// when they hold.
 #include "exec_svc/mission/goal_formula.hpp"
 
 #include <gmock/gmock.h>

@@ -126,8 +126,8 @@ TEST_F(ReactorTest, AnOwnerLostDuringThePauseMakesTheRobotSafeAndItsReturnResume
   EXPECT_EQ(reactor.counts().achieved, 2U);
 }
 
-// A network falls apart and heals: the planner is heard before the robot is, and proves with the picture of before that the goal is out
-// of reach.
+// A network falls apart and heals: the planner is heard before the robot is, and proves with the picture of before that
+// the goal is out of reach.
 TEST_F(ReactorTest, NoGoalEndsWhileAServiceThatObservesIsAway) {
   bool away = true;
   planner = [&](const PlanRequest& call) {
@@ -147,7 +147,8 @@ TEST_F(ReactorTest, NoGoalEndsWhileAServiceThatObservesIsAway) {
   EXPECT_EQ(reactor.counts().achieved, 2U);
 }
 
-// Its calls run out as those of a planner that fails; a proof of a call that was made with everybody there counts at once.
+// Its calls run out as those of a planner that fails; a proof of a call that was made with
+// everybody there counts at once.
 TEST_F(ReactorTest, AProofIsBelievedInTheEndAndAtOnceOnceEverybodyIsBack) {
   planner = [](const PlanRequest&) { return reply(Verdict::unsolvable, "never reached"); };
   run(10, robot_and({}));

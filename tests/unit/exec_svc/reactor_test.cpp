@@ -74,7 +74,8 @@ TEST_F(ReactorTest, WhenNotAllFitTheNewestOpportunisticGoesFirst) {
   EXPECT_EQ(reactor.counts().dropped, 2U);
 }
 
-// What one goal lacks is told of it alone; the planner's own words follow in a second line, and operators hear the first.
+// What one goal lacks is told of it alone; the planner's own words follow in a second line,
+// and operators hear the first.
 TEST_F(ReactorTest, AGoalOutOfReachSaysWhatItLacks) {
   planner = [this](const PlanRequest& call) {
     return testing::asks_for(call, "walled") ? blocked({"walled"}) : image_every_goal(call);
@@ -100,7 +101,8 @@ TEST_F(ReactorTest, APlanWithoutActivitiesIsAdoptedOnceForAnOpenGoal) {
   EXPECT_EQ(reactor.outcome(), "partial");
 }
 
-// Plans that break at the same place, with nothing done in between, wait longer and longer, and are given up in the end.
+// Plans that break at the same place, with nothing done in between, wait longer and longer,
+// and are given up in the end.
 TEST_F(ReactorTest, EqualBreaksInARowPauseLikeEqualFailures) {
   std::vector<double> calls;
   planner = [&](const PlanRequest& call) {

@@ -85,8 +85,8 @@ TEST(ResourceMonitor, ARetryIsChargedAgain) {
   EXPECT_EQ(shortfall(monitor, levels({{"(battery)", 65}})), "");
 }
 
-// A drive under way will lower the battery under the bound of the activity after it: no alarm while it may, one as soon as
-// it has ended and its end is seen without that.
+// A drive under way will lower the battery under the bound of the activity after it: no alarm while it may, one as soon
+// as it has ended and its end is seen without that.
 TEST(ResourceMonitor, WhatARunningActivityWillStillTakeCountsForAnUpperBound) {
   temporal::FlexiblePlan plan = plan_of({{0, 30}, {0, 0}});
   plan.activities[1].pre = temporal::compare("(battery)", ConditionOp::le, 75.0);

@@ -1,5 +1,5 @@
-// Damaged journals, of every kind that a disk or a hand may make: each can be opened afterwards, what was damaged is kept
-// beside it, and no goal that could be read is lost.
+// Damaged journals, of every kind that a disk or a hand may make: each can be opened afterwards, what was damaged is
+// kept beside it, and no goal that could be read is lost.
 #include "exec_svc/journal/salvage.hpp"
 
 #include <gmock/gmock.h>

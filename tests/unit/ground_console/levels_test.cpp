@@ -54,7 +54,8 @@ TEST(InLevels, NothingIsMissingWhateverParentsSay) {
   EXPECT_EQ(in_order(deep).size(), 100U);
 }
 
-// A traverse of `cycles` cycles of three steps each; the first `over` of them have ended, and the one after them runs its second step.
+// A traverse of `cycles` cycles of three steps each; the first `over` of them have ended,
+// and the one after them runs its second step.
 lib::MissionView traverse(int cycles, int over) {
   lib::MissionView view = flying_mission();
   v1::Plan plan;

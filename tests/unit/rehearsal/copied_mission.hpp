@@ -87,8 +87,8 @@ struct Slip {
   const char* wrong;
   const char* what;
   const char* remedy;
-  // Where it is told, if not where it was made: the line of this text in mission.yaml, "FILE name": in that file, or "BELOW": in the
-  // line below.
+  // Where it is told, if not where it was made: the line of this text in mission.yaml, "FILE name": in that file, or
+  // "BELOW": in the line below.
   const char* told_at = "";
 };
 

@@ -13,8 +13,8 @@ namespace roci::science {
 inline constexpr int kWidth = 96;
 inline constexpr int kHeight = 64;
 
-/// Grey ground with noise of its own for each seed, a light sky above; a square of so many pixels a side and of this grey stands
-/// with its middle at (48, `row`), if it has a side.
+/// Grey ground with noise of its own for each seed, a light sky above; a square of so many pixels a side and of this
+/// grey stands with its middle at (48, `row`), if it has a side.
 inline terrain::GreyImage made_ground(std::uint64_t seed, int side = 0, int grey = 240, int row = 38) {
   std::mt19937_64 random(seed);
   terrain::GreyImage out{kWidth, kHeight, 255, {}};

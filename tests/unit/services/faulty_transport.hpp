@@ -1,5 +1,5 @@
-// A transport whose readers of some topics get samples not at all, or more than once, as a test says: what a bad network, or
-// a peer that sends again, does to a service.
+// A transport whose readers of some topics get samples not at all, or more than once, as a test says: what a bad
+// network, or a peer that sends again, does to a service.
 #pragma once
 
 #include <functional>

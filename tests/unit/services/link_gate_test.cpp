@@ -243,7 +243,8 @@ TEST(LinkGateOfRobots, WhatTheWorldSaysOfARobotComesOverItsRadio) {
   EXPECT_THAT(heard["team"], ElementsAre("1 primary.battery", "1 scout.battery", "1 ground.window"));
 }
 
-// Commands and requests of a robot are read by all of its services, and those for another one take no room on the radio.
+// Commands and requests of a robot are read by all of its services,
+// and those for another one take no room on the radio.
 TEST_F(LinkGate, WhatIsForAnotherServiceDoesNotPassTheLink) {
   link::Link link;
   link.loss = 1;

@@ -255,8 +255,8 @@ v1::CommandAck last_word(int number) {
   return ack;
 }
 
-// A writer that runs for a month keeps the newest of what is finished, and nothing of what nobody asks for again; and who
-// joins then still gets the newest sample, for which the clock makes it wait.
+// A writer that runs for a month keeps the newest of what is finished, and nothing of what nobody asks for again; and
+// who joins then still gets the newest sample, for which the clock makes it wait.
 TEST(SimNode, WhatIsFinishedIsKeptForTheNewestAlone) {
   constexpr int kFinished = 200;
   SimRun run({"a", "b"});

@@ -9,9 +9,9 @@
 
 namespace roci::sim {
 
-/// A sampler whose settings a test may change before it builds it. Sites 0 and 1 of 0.1 m, for which the cutter needs 10,000 s
-/// each; targets 0 and 1, of which 0_0 alone is positive. Nothing is noisy, everything is warm, and the arm is at each place
-/// already.
+/// A sampler whose settings a test may change before it builds it. Sites 0 and 1 of 0.1 m, for which the cutter needs
+/// 10,000 s each; targets 0 and 1, of which 0_0 alone is positive. Nothing is noisy, everything is warm, and the arm is
+/// at each place already.
 struct Sampler {
   Sampler();
 

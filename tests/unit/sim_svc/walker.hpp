@@ -14,8 +14,8 @@ namespace roci::sim {
 /// rail, shoulder, elbow, wrist; 2.2 m from shoulder to tool.
 std::shared_ptr<const kinematics::Arm> rail_arm();
 
-/// A walker whose settings a test may change before it builds it: slots s0 … s3 at poses of their names, m0 in s0 and m1 in
-/// s1, 80 kg each, sunlight in [0, 1000) and [2000, 3000) s. It starts at pose home; nothing is noisy.
+/// A walker whose settings a test may change before it builds it: slots s0 … s3 at poses of their names, m0 in s0 and
+/// m1 in s1, 80 kg each, sunlight in [0, 1000) and [2000, 3000) s. It starts at pose home; nothing is noisy.
 struct Walker {
   Walker();
 

@@ -41,9 +41,9 @@ class FormulaGrounder {
   void read(const lifted::LiftedFormula& formula, lifted::Binding& binding, bool at_end,
             std::vector<ReadVariable>& result);
 
-  /// Returns the expression in linear form, or nothing if a constant in it is undefined or it divides by 0. A number that
-  /// cancels, as in (- (f) (f)), is read all the same: if it has no initial value it stands there with weight 0, until
-  /// simplification/defined_numbers.hpp has seen it.
+  /// Returns the expression in linear form, or nothing if a constant in it is undefined or it divides by 0. A number
+  /// that cancels, as in (- (f) (f)), is read all the same: if it has no initial value it stands there with weight 0,
+  /// until simplification/defined_numbers.hpp has seen it.
   std::optional<task::LinearExpression> linear(const lifted::LiftedExpression& expression,
                                                const lifted::Binding& binding);
 

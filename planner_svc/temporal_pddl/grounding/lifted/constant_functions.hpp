@@ -23,8 +23,9 @@ class ConstantFunctions {
                     const Symbols& symbols);
 
   /// Asks `source` for all external functions on all typed tuples, one batch per function (R37), and appends
-  /// every tuple with its answer to `used`, if that is wanted. Throws ModelFailure (function_unavailable), naming function and
-  /// tuple, if an answer is neither a value nor "unreachable" nor "unknown", and PlanningFailure (cancelled).
+  /// every tuple with its answer to `used`, if that is wanted. Throws ModelFailure (function_unavailable), naming
+  /// function and tuple, if an answer is neither a value nor "unreachable" nor "unknown",
+  /// and PlanningFailure (cancelled).
   void load_external(engine::FunctionSource& source, const std::function<bool()>& cancelled,
                      const Symbols& symbols, std::vector<engine::FunctionUse>* used);
 

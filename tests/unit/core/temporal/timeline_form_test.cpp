@@ -1,4 +1,5 @@
-// Flexible timelines: a sound plan, one mutation for each fault, and random plans against shortest paths between all points.
+// Flexible timelines: a sound plan, one mutation for each fault,
+// and random plans against shortest paths between all points.
 #include "core/temporal/timeline_form.hpp"
 
 #include <gmock/gmock.h>
@@ -20,8 +21,8 @@ using testing::IsEmpty;
 
 constexpr Duration kHorizon = seconds(100);
 
-// Wheels stand, drive for 10 to 20 s, and stand again; the mast looks within that time. Points 1 to 3 are the wheels', 4 to 6 the
-// mast's; 7 is the end of the drive as its activity has it.
+// Wheels stand, drive for 10 to 20 s, and stand again; the mast looks within that time. Points 1 to 3 are the wheels',
+// 4 to 6 the mast's; 7 is the end of the drive as its activity has it.
 FlexiblePlan two_timelines() {
   FlexiblePlan plan;
   plan.point_count = 8;

@@ -23,7 +23,8 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 
-// Is a map of 4 x 3 pixels of 2 m in UTM zone 33, whose elevations count from the north-west; each test spoils one thing.
+// Is a map of 4 x 3 pixels of 2 m in UTM zone 33, whose elevations count from the north-west;
+// each test spoils one thing.
 struct Recipe {
   int columns = 4;
   int rows = 3;

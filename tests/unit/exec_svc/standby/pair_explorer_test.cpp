@@ -1,5 +1,5 @@
-// Everything that can happen to a pair within bounds is tried: never two command, nothing that was acknowledged is lost,
-// nothing is flown twice or after its recall, and whenever all is mended somebody leads again.
+// Everything that can happen to a pair within bounds is tried: never two command, nothing that was acknowledged is
+// lost, nothing is flown twice or after its recall, and whenever all is mended somebody leads again.
 #include "tests/unit/exec_svc/standby/pair_explorer.hpp"
 
 #include <gmock/gmock.h>

@@ -69,8 +69,8 @@ TEST(Compression, SeveralAddersOfWhatOthersReadAreNot) {
 
 TEST(Compression, NumbersThatOthersReadAreNot) { EXPECT_FALSE(safe("(charge)")); }
 
-// Jobs that hold one of two keys at the same time: two find one each, three do not, which no pair of facts shows, so that all
-// states are looked at.
+// Jobs that hold one of two keys at the same time: two find one each, three do not, which no pair of facts shows, so
+// that all states are looked at.
 testing::Model jobs(int count) {
   std::string objects, init, goal;
   for (int i = 0; i < count; ++i) {

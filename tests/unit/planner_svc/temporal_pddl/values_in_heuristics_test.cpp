@@ -1,5 +1,5 @@
-// Values of external functions count in the heuristics, whatever is behind the function (R39): as costs of relaxed plans, as
-// times before which nothing can happen, as amounts that numbers lack, and by the level of the state.
+// Values of external functions count in the heuristics, whatever is behind the function (R39): as costs of relaxed
+// plans, as times before which nothing can happen, as amounts that numbers lack, and by the level of the state.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -101,8 +101,8 @@ TEST(ValuesInHeuristics, AFunctionOfTheStateCountsByItsLevel) {
   EXPECT_EQ(of_start(model(20), functions).cost, 30'000'000);
 }
 
-// Where only a bound is known the heuristic counts with it, and with the exact value in the next round: the way whose bound
-// was too good is left, and what the search never came near is not asked for.
+// Where only a bound is known the heuristic counts with it, and with the exact value in the next round: the way whose
+// bound was too good is left, and what the search never came near is not asked for.
 TEST(ValuesInHeuristics, AreRefinedFromRoundToRound) {
   class Bounded final : public engine::FunctionSource {
    public:

@@ -61,7 +61,8 @@ v1::PlanReply random_plan(Random& random) {
   return reply;
 }
 
-// The key as RTPS hashes it, written by hand: string length with its zero, string, alignment to a number's own size, number.
+// The key as RTPS hashes it, written by hand: string length with its zero, string,
+// alignment to a number's own size, number.
 transport::Payload expected_key(const v1::Command& command) {
   transport::Payload key;
   const auto number = [&key](std::uint32_t value) {

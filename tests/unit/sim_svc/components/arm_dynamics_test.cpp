@@ -93,8 +93,8 @@ TEST(ArmDynamics, ConservesEnergyWithoutForces) {
   }
 }
 
-// The period of a pendulum of any amplitude is that of a small one over the arithmetic-geometric mean of 1 and the cosine
-// of half the amplitude (Gauss).
+// The period of a pendulum of any amplitude is that of a small one over the arithmetic-geometric mean of 1 and the
+// cosine of half the amplitude (Gauss).
 TEST(ArmDynamics, SwingsAsAPendulum) {
   constexpr double kLength = 0.7, kAmplitude = 2.0, kG = 9.81;
   Arm arm;

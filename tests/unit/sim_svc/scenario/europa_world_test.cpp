@@ -1,4 +1,5 @@
-// The world of missions/europa against what its planner foresees (model.yaml): other laws and other values, and not far off.
+// The world of missions/europa against what its planner foresees (model.yaml):
+// other laws and other values, and not far off.
 #include <gtest/gtest.h>
 
 #include <filesystem>

@@ -68,8 +68,8 @@ bool within(const std::vector<Conflict>& with, const std::vector<Conflict>& with
   });
 }
 
-/// Returns whether a conflict begins or ends at that instant. Then the candidate may break another side of an instant that is in conflict
-/// anyway, which stretches of time do not tell.
+/// Returns whether a conflict begins or ends at that instant. Then the candidate may break another side of an instant
+/// that is in conflict anyway, which stretches of time do not tell.
 bool at_edge(const std::vector<Conflict>& conflicts, Time time) {
   return std::ranges::any_of(conflicts, [&](const Conflict& it) { return it.from == time || it.to == time; });
 }

@@ -1,4 +1,5 @@
-// An oracle for timelines: it goes through a small world microsecond by microsecond and knows nothing of knots, aggregates or intervals.
+// An oracle for timelines: it goes through a small world microsecond by microsecond and knows nothing of knots,
+// aggregates or intervals.
 #pragma once
 
 #include <array>

@@ -116,7 +116,8 @@ TEST(Copies, StandForThemselves) {
   EXPECT_EQ(copy.value(0, at(110)), 900);
 }
 
-/// Flies for long: each step places a task or two ahead, hears what is, ends what runs at other times than planned and consolidates.
+/// Flies for long: each step places a task or two ahead, hears what is,
+/// ends what runs at other times than planned and consolidates.
 TEST(Consolidation, KeepsMemoryFlatOverALongRun) {
   std::mt19937_64 random(1);
   Timelines lines({kBattery, {.name = "stored", .kind = Kind::cumulative}}, Extent{.most_impacts = 200});

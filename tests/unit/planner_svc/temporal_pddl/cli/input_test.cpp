@@ -1,5 +1,5 @@
-// The input side of roci-plan: each kind of file that departs from PDDL is planned for, with its warning on standard error
-// and nothing but the plan on standard output; what is refused ends with the code that says how.
+// The input side of roci-plan: each kind of file that departs from PDDL is planned for, with its warning on standard
+// error and nothing but the plan on standard output; what is refused ends with the code that says how.
 #include <gmock/gmock.h>
 
 #include <nlohmann/json.hpp>

@@ -68,7 +68,8 @@ TEST(TimelineEngine, ItsPlansPassItsCheckerAndOthersDoNot) {
   EXPECT_THAT(checker.faults({request, {}, shorter}), testing::Not(testing::IsEmpty()));
 }
 
-// The windows of a request take the place of those of the model, by the timeline that shows the component, from the origin on.
+// The windows of a request take the place of those of the model,
+// by the timeline that shows the component, from the origin on.
 TEST(TimelineEngine, WindowsOfTheRequestArePlannedWith) {
   Request request;
   request.engine = "timeline_htn";

@@ -1,4 +1,5 @@
-// The problems of the two rovers (missions/faster): each is planned with the behaviour that the paper names, and passes the checker.
+// The problems of the two rovers (missions/faster): each is planned with the behaviour that the paper
+// names, and passes the checker.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -36,7 +37,8 @@ FlexiblePlan checked_plan(const std::string& problem) {
   return plan;
 }
 
-// R147, R148: the two goals, five planned timelines, a cycle of a traverse as a team for each way between two way-points.
+// R147, R148: the two goals, five planned timelines, a cycle of a traverse as a team for each
+// way between two way-points.
 TEST(FasterModel, TheTrialIsPlannedAsACycleForEachWay) {
   const FlexiblePlan plan = checked_plan("problem");
   EXPECT_EQ(count(plan, "navigation.team_cycle("), 9U);
@@ -145,8 +147,8 @@ void begin_with(model::Model& model, const std::string& component, const std::st
     initial.terms.push_back({object(model, place), true});
 }
 
-// What mends an error asks for the other rover in its place; in trouble are sometimes both, and the goals have changed as well. There is a plan all
-// the same, with the last communication in it.
+// What mends an error asks for the other rover in its place; in trouble are sometimes both, and the goals have changed
+// as well. There is a plan all the same, with the last communication in it.
 TEST(FasterModel, WhateverErrorsMeetThereIsAPlan) {
   using Begin = std::pair<const char*, const char*>;
   const model::Model trial = load("missions/faster/problem.yaml");
@@ -190,8 +192,8 @@ TEST(FasterModel, AScoutWithoutAWayBackIsLeftWhereItIs) {
   }
 }
 
-// Where legs are closed, no route is begun that comes to one of them: behind the south way's last stand the team goes all the way back and along
-// the edge.
+// Where legs are closed, no route is begun that comes to one of them: behind the south way's last stand the team goes
+// all the way back and along the edge.
 TEST(FasterModel, ClosedLegsAreGoneRoundWithoutASearch) {
   const auto plan = [](const std::vector<std::pair<std::string, std::string>>& legs) {
     model::Model model = load("missions/faster/problem.yaml");

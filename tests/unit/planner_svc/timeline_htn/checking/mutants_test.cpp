@@ -377,8 +377,8 @@ TEST(TimelineChecker, WantsActivitiesToWaitForWhatTheyNeed) {
               Contains(HasSubstr("is false in base.at(b, b), which meets its need")));
 }
 
-// R131. The porter may hand a crate over in place of setting it down, and the plan for two crates goes on behind the first choice alone:
-// where the other one is taken for the second crate, what is seen stays as it was after the first.
+// R131. The porter may hand a crate over in place of setting it down, and the plan for two crates goes on behind the
+// first choice alone: where the other one is taken for the second crate, what is seen stays as it was after the first.
 TEST(TimelineChecker, KnowsWhatADecisionLeavesAsItWasFromWhatItBringsAbout) {
   std::ifstream in(ROCI_SOURCE_DIR "/tests/missions/porter/porter.yaml");
   std::string text{std::istreambuf_iterator<char>(in), {}};

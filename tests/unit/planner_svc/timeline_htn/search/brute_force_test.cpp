@@ -1,4 +1,5 @@
-// The search against brute force on small random problems (Z22): every plan that it finds is one, and where there is one it finds one.
+// The search against brute force on small random problems (Z22): every plan that it finds is one,
+// and where there is one it finds one.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,4 +1,5 @@
-// What complex states can be made of: landmarks against leaving each state out, and estimates that do not depend on where they came from.
+// What complex states can be made of: landmarks against leaving each state out,
+// and estimates that do not depend on where they came from.
 #include "planner_svc/timeline_htn/search/decompositions.hpp"
 
 #include <gtest/gtest.h>
@@ -53,7 +54,8 @@ TEST(Decompositions, LandmarksAreTheStatesWithoutWhichThereIsNoWay) {
   }
 }
 
-// Without chords the only way is along the line: cycles of nine steps and one more for the route and the cycle, below one traverse.
+// Without chords the only way is along the line: cycles of nine steps and one more for the route and the
+// cycle, below one traverse.
 TEST(Decompositions, ValuesGrowWithTheWay) {
   std::vector<std::uint32_t> values;
   for (const int waypoints : {3, 5, 9}) {

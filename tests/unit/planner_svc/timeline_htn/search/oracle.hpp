@@ -1,6 +1,6 @@
-// Whether a small problem without parameters has a plan, by trying everything: every decomposition, every sequence of values of a
-// timeline up to a length, every value for every subgoal and need, and a temporal network for each. Conditions count where they are of
-// timelines that are predicted.
+// Whether a small problem without parameters has a plan, by trying everything: every decomposition, every sequence of
+// values of a timeline up to a length, every value for every subgoal and need, and a temporal network for each.
+// Conditions count where they are of timelines that are predicted.
 #pragma once
 
 #include <cstddef>

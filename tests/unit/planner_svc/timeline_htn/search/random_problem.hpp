@@ -10,8 +10,8 @@
 
 namespace roci::planner::timeline_htn::search {
 
-/// Makes the text of a problem: two primitive components of two or three states, an abstract one with two complex states, one or two
-/// behaviours for each, one or two goals. Asked for, behaviours have conditions.
+/// Makes the text of a problem: two primitive components of two or three states, an abstract one with two complex
+/// states, one or two behaviours for each, one or two goals. Asked for, behaviours have conditions.
 class RandomProblem {
  public:
   explicit RandomProblem(std::uint64_t seed, bool with_conditions = false)

@@ -103,8 +103,8 @@ TEST(TimelineSearch, EveryLevelStaysInThePlan) {
   EXPECT_TRUE(top->owner.empty());
 }
 
-// The arm must be folded while the rover drives, so it cannot sample at the very end of a drive: the search finds that and takes the
-// other behaviour.
+// The arm must be folded while the rover drives, so it cannot sample at the very end of a drive: the search finds that
+// and takes the other behaviour.
 TEST(TimelineSearch, WhereTheFirstDecompositionFailsAnotherIsFound) {
   const std::string hasty =
       kBehaviours +

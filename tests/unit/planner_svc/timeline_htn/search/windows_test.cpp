@@ -1,4 +1,5 @@
-// What is known to come is planned with: what needs it stands inside of its window, the earliest that fits, or there is no plan.
+// What is known to come is planned with: what needs it stands inside of its window,
+// the earliest that fits, or there is no plan.
 #include "tests/unit/planner_svc/timeline_htn/reading/windows.hpp"
 
 #include <gmock/gmock.h>

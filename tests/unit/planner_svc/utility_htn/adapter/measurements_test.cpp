@@ -1,4 +1,5 @@
-// What is measured reaches the predictions: the executive's word on the step and the owner's on each command, in any order (R101, R116).
+// What is measured reaches the predictions: the executive's word on the step and the owner's on each command,
+// in any order (R101, R116).
 #include "planner_svc/utility_htn/adapter/measurements.hpp"
 
 #include <gmock/gmock.h>
@@ -111,7 +112,8 @@ TEST_F(MeasurementsTest, WhatAnotherProcessTookIsNotTakenAgain) {
   EXPECT_THAT(measurements_.taken(), ElementsAre("dig#2.0"));
 }
 
-// The small lander, whose sites have a power and a value of their own; stands in for the executive, which takes every version at once.
+// The small lander, whose sites have a power and a value of their own; stands in for the executive,
+// which takes every version at once.
 class LearnedInFlight : public ::testing::Test {
  protected:
   LearnedInFlight() { begin(); }
@@ -233,7 +235,8 @@ TEST_F(LearnedInFlight, WhatEndedWhileTheEngineWasDeadIsLearnedByTheNextOne) {
   expect_learned();
 }
 
-// What the ground says of a site after it was measured counts more than the measurement, which the next process hears again.
+// What the ground says of a site after it was measured counts more than the measurement,
+// which the next process hears again.
 TEST_F(LearnedInFlight, ALaterWordOfTheGroundOutlivesTheEngineToo) {
   dig();
   hear();

@@ -1,4 +1,5 @@
-// What the engine tells of its plan beside the plan: the downlink schedule, utility by rank, energy, the subway map (R110–R115, R127).
+// What the engine tells of its plan beside the plan: the downlink schedule, utility by rank, energy,
+// the subway map (R110–R115, R127).
 #include "planner_svc/utility_htn/adapter/outlook.hpp"
 
 #include <gmock/gmock.h>

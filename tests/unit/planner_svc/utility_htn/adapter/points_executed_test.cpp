@@ -1,5 +1,5 @@
-// A mission of many days in which time points are given again: the executive does what it would do if each were used once, and neither side
-// needs more memory in the end than in the middle (R82).
+// A mission of many days in which time points are given again: the executive does what it would do if each were used
+// once, and neither side needs more memory in the end than in the middle (R82).
 #include <gtest/gtest.h>
 #include <malloc.h>
 
@@ -55,8 +55,8 @@ class PointsOnce {
   TimePoint next_ = Points::kPast + 1;
 };
 
-// A lander that is asked for a view every quarter of an hour, while one task runs as long as the mission does. Every command takes up to a fifth more or
-// less than foreseen, and one in twenty fails.
+// A lander that is asked for a view every quarter of an hour, while one task runs as long as the mission does. Every
+// command takes up to a fifth more or less than foreseen, and one in twenty fails.
 class LongFlight {
  public:
   explicit LongFlight(unsigned seed, bool twice) : random_(seed), twice_(twice) {

@@ -1,5 +1,5 @@
-// Engine and executive with messages between them that come late, in any order or not at all, and with the death of either (R66, R81): the
-// engine goes on from what is executed, and in the end everything is done once.
+// Engine and executive with messages between them that come late, in any order or not at all, and with the death of
+// either (R66, R81): the engine goes on from what is executed, and in the end everything is done once.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -62,7 +62,8 @@ class Executive {
     progress_ = std::move(kept);
   }
 
-  // Starts what is committed and whose time has come, and ends what has run for its duration; now and then something fails.
+  // Starts what is committed and whose time has come, and ends what has run for its duration;
+  // now and then something fails.
   void execute(Time now) {
     if (!runs_) return;
     for (const PlanActivity& activity : plan_.activities) {

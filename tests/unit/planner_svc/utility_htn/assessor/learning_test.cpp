@@ -14,7 +14,8 @@ using model::Measure;
 using roci::temporal::ImpactKind, roci::temporal::ImpactWhen;
 using testing::ElementsAre, testing::HasSubstr, testing::IsEmpty;
 
-// Task 0 and 1 sample site 0, task 2 site 1. A sample takes 60 s more than its parameter and draws 20 W more than its own.
+// Task 0 and 1 sample site 0, task 2 site 1. A sample takes 60 s more than its parameter and
+// draws 20 W more than its own.
 class LearningTest : public testing::Test {
  protected:
   LearningTest() {

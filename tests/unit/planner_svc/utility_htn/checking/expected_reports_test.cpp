@@ -15,7 +15,8 @@ using ::testing::Contains, ::testing::HasSubstr, ::testing::IsEmpty;
 
 constexpr Time kNow = 160s;
 
-/// Digging needs `health`; `mend` brings that about when it ends, and `sky` as long as it lasts, with a command or by itself.
+/// Digging needs `health`; `mend` brings that about when it ends, and `sky` as long as it lasts,
+/// with a command or by itself.
 model::Network network() {
   model::Network out = testing::toy_network();
   model::Task sky;

@@ -17,8 +17,8 @@ inline constexpr std::uint32_t hotel = 0, excavate = 1, collect = 2, analyze = 3
 
 model::Network small_network();
 
-/// Is a question that owns its network. Blocks: hotel load, panorama (both committed), sample_0_0, sample_0_1, uplink; with a photo on
-/// board. It is 30 s, and the commit window ends at 60 s.
+/// Is a question that owns its network. Blocks: hotel load, panorama (both committed), sample_0_0, sample_0_1, uplink;
+/// with a photo on board. It is 30 s, and the commit window ends at 60 s.
 struct SmallMission {
   model::Network network = small_network();
   model::Values values{};

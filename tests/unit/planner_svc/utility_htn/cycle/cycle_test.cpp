@@ -310,7 +310,8 @@ TEST_F(CycleTest, WhereTheBudgetDoesNotLastTheMissionEndsBefore) {
   EXPECT_THAT(cycle.past().done, Contains(chains_.chains[load.chain].task));
 }
 
-// What the load has drawn since the newest report is not reported yet: a budget that lasts by the report lasts for whoever judges the plan.
+// What the load has drawn since the newest report is not reported yet: a budget that lasts by the report lasts for
+// whoever judges the plan.
 TEST_F(CycleTest, ABudgetThatLastsByItsNewestReportLasts) {
   Cycle cycle = make();
   cycle.run(Time{0});
@@ -497,7 +498,8 @@ TEST_F(TwoSites, ASiteThatIsGivenUpDoesNotHoldUpTheOthers) {
   EXPECT_THAT(cycle.closed(now), Contains(task_named(network_, "sample_0")));
 }
 
-// A sample waits until something is mended: what the map leads to behind it must not stay where it was planned, before it.
+// A sample waits until something is mended: what the map leads to behind it must not stay where
+// it was planned, before it.
 TEST_F(TwoSites, WhatTheMapLedToThroughSomethingThatRepairTookOutGoesWithIt) {
   model::Task& mend = add("mend");
   mend.opens = 600s;

@@ -1,4 +1,5 @@
-// Downlinks as the planning cycle asks for them: data without a downlink are not generated, tiers go in their order, limits are kept.
+// Downlinks as the planning cycle asks for them: data without a downlink are not generated,
+// tiers go in their order, limits are kept.
 #include "planner_svc/utility_htn/delivery/delivery.hpp"
 
 #include <gmock/gmock.h>
@@ -146,7 +147,8 @@ TEST_F(DeliveryTest, WhatIsBeingSentKeepsItsRoomThoughItTakesLongerThanIsLeft) {
   EXPECT_TRUE(plan.products.at("second").exists);
 }
 
-// The same for a planner that was started while the radio sends: what was sent before, and when, it hears from who keeps the data.
+// The same for a planner that was started while the radio sends: what was sent before, and when,
+// it hears from who keeps the data.
 TEST_F(DeliveryTest, APlannerThatIsStartedWithinADownlinkKnowsWhatIsBeingSent) {
   task("dig").products.clear();
   start();

@@ -21,7 +21,8 @@ RandomQuestion draw(std::mt19937_64& random, bool all_tiers);
 /// Tells whether a whole assignment breaks nothing, by the formulas of appendix A.
 bool allowed(const RandomQuestion& question, const std::vector<std::optional<std::uint32_t>>& window);
 
-/// Is the worth of an assignment of one tier: sums by rank in steps of kScoreStep, products sent, minus the windows' numbers.
+/// Is the worth of an assignment of one tier: sums by rank in steps of kScoreStep, products sent,
+/// minus the windows' numbers.
 std::vector<std::int64_t> worth_of(const RandomQuestion& question, model::Tier tier,
                                    const std::vector<std::optional<std::uint32_t>>& window);
 

@@ -1,4 +1,5 @@
-// One case for each constraint of appendix A (R111, R126): with the limit a product stays on board, without it it is sent.
+// One case for each constraint of appendix A (R111, R126): with the limit a product stays on
+// board, without it it is sent.
 #include <stdexcept>
 
 #include "planner_svc/utility_htn/downlink/manager.hpp"

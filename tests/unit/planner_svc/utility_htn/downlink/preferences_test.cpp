@@ -64,7 +64,8 @@ TEST(Preferences, TheEarliestDownlinkIsTaken) {
   EXPECT_EQ(manager.counts().certificate, 1u);
 }
 
-// The best product of all goes later so that two others go earlier: what counts is what arrives, then how early all of it does.
+// The best product of all goes later so that two others go earlier: what counts is what arrives,
+// then how early all of it does.
 TEST(Preferences, TheSumOfTheWindowsIsLeast) {
   const std::vector<Window> windows{window("w0", 0), window("w1", 20)};
   const std::vector<Product> products{product("best", 1000, {1}), product("a", 500, {0.5}),

@@ -62,7 +62,8 @@ class Europa {
   model::Values values;
 };
 
-// Labels of figure 8 leave out what MEXEC adds as the instance's number: here form, site and target, and whether it plans behind a sample.
+// Labels of figure 8 leave out what MEXEC adds as the instance's number: here form, site and target,
+// and whether it plans behind a sample.
 std::vector<std::string> labels(const std::vector<std::string>& ids) {
   static const std::regex instance("(_raw|_compressed)?(_[0-9]_[0-9])?$");
   std::vector<std::string> out;
@@ -218,7 +219,8 @@ TEST(EuropaNetworks, RawDataAreWorthAndCostMoreThanCompressedOnes) {
   }
 }
 
-// R91: while there is energy for it samples go raw; where there is less, as many are compressed as must be so that all fit.
+// R91: while there is energy for it samples go raw; where there is less,
+// as many are compressed as must be so that all fit.
 TEST(EuropaNetworks, PlansSwitchToCompressedDataWhereTheBudgetAsksForIt) {
   const Europa rsm("network-rsm1.yaml");
   const std::string raw = "/raw", compressed = "/compressed";
@@ -242,7 +244,8 @@ TEST(EuropaNetworks, PlansSwitchToCompressedDataWhereTheBudgetAsksForIt) {
   }
 }
 
-// R90, R91: communication is worth more than any sampling, and the same wherever it is sent from; surveys are worth what is sent.
+// R90, R91: communication is worth more than any sampling, and the same wherever it is sent from;
+// surveys are worth what is sent.
 TEST(EuropaNetworks, CommunicationIsWorthMoreThanSamplingAndConstant) {
   const Europa base("network.yaml");
   double most = 0;

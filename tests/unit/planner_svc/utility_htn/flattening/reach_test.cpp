@@ -13,7 +13,8 @@ using model::Network, model::TaskIndex;
 using temporal::timelines::Kind;
 using testing::ElementsAre, testing::IsEmpty;
 
-// Digging opens a trench, finding asks for that and finds targets, sampling asks for both; the ground may set a flag for `asked`.
+// Digging opens a trench, finding asks for that and finds targets, sampling asks for both;
+// the ground may set a flag for `asked`.
 class Reach : public testing::Test {
  protected:
   Reach() {

@@ -1,5 +1,5 @@
-// Long plans of equal tasks are executed with independent failures; the mean of what they bring home agrees with equations 2–5 within its
-// confidence interval.
+// Long plans of equal tasks are executed with independent failures; the mean of what they bring home agrees with
+// equations 2–5 within its confidence interval.
 #include <cmath>
 #include <random>
 
@@ -67,7 +67,8 @@ TEST(ExecutedPlans, StaticAgreesWithEquation2) {
   EXPECT_NEAR(mean.value, static_utility(plan_for(5'000, 0), kProbabilities), mean.half_width);
 }
 
-// The last task of a budget is not paid for whole: half a task's utility on the average, which is added to the interval.
+// The last task of a budget is not paid for whole: half a task's utility on the average,
+// which is added to the interval.
 TEST(ExecutedPlans, GroundAgreesWithEquation3) {
   const Mean mean = mean_of(Strategy::ground, 5'000, 12);
   const PlanFigures plan = plan_for(5'000, kProbabilities.fail * kCosts.ground);
@@ -87,7 +88,8 @@ TEST(ExecutedPlans, ReplanningAgreesWithEquation5WithoutDiscoveries) {
   EXPECT_NEAR(mean.value, replanning_utility(plan, kProbabilities, kCosts, {}), mean.half_width + kUtility);
 }
 
-// With the number of tasks that was planned without failures the equations are too low, since fewer tasks have fewer failures.
+// With the number of tasks that was planned without failures the equations are too low,
+// since fewer tasks have fewer failures.
 TEST(ExecutedPlans, ThePlannedNumberOfTasksMakesTheEquationsCautious) {
   PlanFigures planned = plan_for(5'000, 0);
   EXPECT_DOUBLE_EQ(planned.tasks, 500);
