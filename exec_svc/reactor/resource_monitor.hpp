@@ -20,9 +20,9 @@ namespace roci::exec::reactor {
 /// is given back at an activity's end is waited for): the
 /// range in which its value must lie now, so that the pre conditions of all waiting activities hold in plan
 /// order. Nobody sees how much of it the first attempt of a running activity has taken or given already: it may still
-/// do any part of what was planned, and whatever part would do is reckoned with, so that no alarm is false. What another
-/// attempt will take counts until it is seen. An activity that waits no more costs the logarithm of the plan's length, a
-/// check two comparisons for each timeline.
+/// do any part of what was planned, and whatever part would do is reckoned with, so that no alarm is false. What
+/// another attempt will take counts until it is seen. An activity that waits no more costs the logarithm of the plan's
+/// length, a check two comparisons for each timeline.
 class ResourceMonitor {
  public:
   ResourceMonitor() = default;

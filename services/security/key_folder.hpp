@@ -3,7 +3,7 @@
 //   identity_authority.pem, permissions_authority.pem   who signs certificates, and who signs documents
 //   revoked.pem, governance.p7s                         certificates taken back (a CRL), how domains are protected
 //   services/NAME/VENDOR.pem, .key, .permissions.p7s    certificate, private key and rights of a service at a vendor
-//   authority/                                          on the ground's machine alone: the authorities' keys (authority.hpp)
+//   authority/                                          on the ground's machine alone: the authorities' keys
 #pragma once
 
 #include <cstdint>

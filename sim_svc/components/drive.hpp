@@ -31,9 +31,9 @@ inline constexpr std::size_t kGivenPoints = 64;
 /// Drives on wheels: drive (to, x, y) asks for a path and follows it; drive (to, way) drives over the points of that
 /// text (core/terrain/way.hpp) instead, asks nobody, and makes no detours. A stop on the way leaves the body at
 /// the stop place. Before a hidden rock it stands, looks, and asks for a path around (a repair of its own,
-/// R146), as long as there are detours and time left. turn (x, y) turns in place until it heads for that point. In soil that does not bear it the body digs itself in
-/// (`bogged-down`) and drives no more. With a soil sensor it ends `no-go` where another vehicle must not follow, and marks a
-/// circle there.
+/// R146), as long as there are detours and time left. turn (x, y) turns in place until it heads for that point. In soil
+/// that does not bear it the body digs itself in (`bogged-down`) and drives no more. With a soil sensor it ends `no-go`
+/// where another vehicle must not follow, and marks a circle there.
 class Drive final : public world::Component, public world::Mobility {
  public:
   /// Starts with the body at the stop place; it must have a pose, and the world a site.

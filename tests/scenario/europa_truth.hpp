@@ -14,8 +14,8 @@ namespace roci::scenario {
 
 /// Returns the network with what the flight has shown to be true: durations and powers of the tasks, what is always on,
 /// sizes of the data, and the rate of downlinks from `since_s` on, with the lengths that they need then.
-/// Where there are `signatures` of samples (true or false by "site_target"), nobody asks for those to which the subway map leads no more.
-/// The version is one higher.
+/// Where there are `signatures` of samples (true or false by "site_target"), nobody asks for those to which the subway
+/// map leads no more. The version is one higher.
 planner::utility_htn::model::Network truth_of(planner::utility_htn::model::Network foreseen,
                                               const HeardFlight& flight, double since_s,
                                               const std::map<std::string, bool>& signatures);

@@ -92,7 +92,8 @@ class Delivery {
   /// Takes in a product's newest state; returns whether anything is new. Its request is what it was as soon as nobody
   /// knows it any more, since the plan forgets chains that have ended. A score that is negative or not finite counts as
   /// 0, one above a million as a million.
-  /// `now` is when its owner said so: a downlink that runs has been sending the next product since the last one was sent.
+  /// `now` is when its owner said so: a downlink that runs has been sending the next product
+  /// since the last one was sent.
   bool hear(Existing product, temporal::Time now = temporal::Time{0});
   /// Takes in what downlinks were told to send, in order: of one that runs, the first that is still on board is being
   /// sent. Before anything was told somebody else may have told it, in the same order: then that is the first one that

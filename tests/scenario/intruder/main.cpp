@@ -5,7 +5,7 @@
 //   send ACTION OWNER SUBSYSTEM COMMAND ACTIVITY ISSUED SENDER_EPOCH [argument=value …]
 //   beat SERVICE INCARNATION TIMES      heartbeats, four a second
 //   repeat SECONDS                      sends every command that he hears again, twice
-//   flood SECONDS                       well-formed goals, observations, hazards and requests that nobody wants, as fast as he can
+//   flood SECONDS                       well-formed goals, observations, hazards and requests, as fast as he can
 //   await SECONDS TEXT                  until a line that was heard holds the text; fails after that time
 #include <algorithm>
 #include <chrono>
