@@ -17,14 +17,14 @@ namespace roci::planner::timeline_htn::checking {
 /// a behaviour without `achieves` for that behaviour; tokens are the values of the timeline of the component
 /// that they name. Checked are
 ///  - its own form (temporal::check), and that of its timelines from origin to horizon (R142);
-///  - timelines: each component has one, it begins as the problem says and ends at rest; each value exists, lasts as it may
-///    in every schedule, and follows the one before by a transition; no error state is planned;
+///  - timelines: each component has one, it begins as the problem says and ends at rest; each value exists, lasts as it
+///    may in every schedule, and follows the one before by a transition; no error state is planned;
 ///  - activities: each simple or outermost complex one stands on its timeline, and its command is the model's;
 ///  - dependencies: what a value needs of others holds in every schedule, and its activity waits for what is observed
 ///    of it;
 ///  - decompositions: each complex activity has the subgoals of one behaviour for it as parts, with objects that fulfil
-///    its tests, constraints that the plan's network implies, and its conditions at its start; what triggers a behaviour is
-///    followed by it, and all else that the plan does by that;
+///    its tests, constraints that the plan's network implies, and its conditions at its start; what triggers a behaviour
+///    is followed by it, and all else that the plan does by that;
 ///  - decisions: those of the behaviours, with their choices, rules and arguments, open until the point that they name;
 ///  - goals: reached in their windows, one after the other where the problem says so.
 /// What cannot be read off the network is executed: the earliest and the latest schedule, those with one point as early
