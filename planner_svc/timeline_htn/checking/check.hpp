@@ -23,8 +23,8 @@ namespace roci::planner::timeline_htn::checking {
 ///  - dependencies: what a value needs of others holds in every schedule, and its activity waits for what is observed
 ///    of it;
 ///  - decompositions: each complex activity has the subgoals of one behaviour for it as parts, with objects that fulfil
-///    its tests, constraints that the plan's network implies, and its conditions at its start; what triggers a behaviour
-///    is followed by it, and all else that the plan does by that;
+///    its tests, constraints that the plan's network implies, and its conditions at its start; what triggers a
+///    behaviour is followed by it, and all else that the plan does by that;
 ///  - decisions: those of the behaviours, with their choices, rules and arguments, open until the point that they name;
 ///  - goals: reached in their windows, one after the other where the problem says so.
 /// What cannot be read off the network is executed: the earliest and the latest schedule, those with one point as early
