@@ -125,19 +125,19 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? kAchieved : kBadInput;
   }
+  const auto refused = [](const std::exception& error, ExitCode code) {
+    std::cerr << "roci-rehearse: " << error.what() << "\n";
+    return code;
+  };
   try {
     return rehearse(arguments);
   } catch (const roci::rehearsal::NotLoadable& error) {
-    std::cerr << "roci-rehearse: " << error.what() << "\n";
-    return kServiceFailed;
+    return refused(error, kServiceFailed);
   } catch (const std::invalid_argument& error) {
-    std::cerr << "roci-rehearse: " << error.what() << "\n";
-    return kBadInput;
+    return refused(error, kBadInput);
   } catch (const std::runtime_error& error) {
-    std::cerr << "roci-rehearse: " << error.what() << "\n";
-    return kBadInput;
+    return refused(error, kBadInput);
   } catch (const std::exception& error) {
-    std::cerr << "roci-rehearse: " << error.what() << "\n";
-    return kServiceFailed;
+    return refused(error, kServiceFailed);
   }
 }

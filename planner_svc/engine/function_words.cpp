@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cstddef>
 
 namespace roci::planner::engine {
 
@@ -15,6 +16,18 @@ std::string asked_of(const Provenance& said) {
             std::to_string(std::chrono::duration<double>(said.time).count()) + " s";
   }
   return text;
+}
+
+struct Those {
+  const FunctionUse* first = nullptr;
+  std::ptrdiff_t others = 0;
+};
+
+Those those_of(std::span<const FunctionUse> uses, FunctionOutcome outcome) {
+  const auto has_it = [&](const FunctionUse& use) { return use.answer.outcome == outcome; };
+  const auto first = std::ranges::find_if(uses, has_it);
+  if (first == uses.end()) return {};
+  return {&*first, std::ranges::count_if(uses, has_it) - 1};
 }
 
 }  // namespace
@@ -53,29 +66,21 @@ std::string remedy_of(const FunctionUse& use) {
 }
 
 std::string doubt_of(std::span<const FunctionUse> uses) {
-  const auto is_unknown = [](const FunctionUse& use) {
-    return use.answer.outcome == FunctionOutcome::unknown;
-  };
-  const auto first = std::ranges::find_if(uses, is_unknown);
-  if (first == uses.end()) return {};
-  const auto count = std::ranges::count_if(uses, is_unknown);
+  const auto [first, others] = those_of(uses, FunctionOutcome::unknown);
+  if (first == nullptr) return {};
   const std::string& owner = first->answer.provenance->owner;
   std::string text =
       "not known: " + (owner.empty() ? "the owner" : owner) + " found no way for " + application(first->call);
-  if (count > 1) text += " and " + std::to_string(count - 1) + " more";
+  if (others > 0) text += " and " + std::to_string(others) + " more";
   return text + " with the effort spent; ask again or give it more";
 }
 
 std::string denial_of(std::span<const FunctionUse> uses) {
-  const auto is_unreachable = [](const FunctionUse& use) {
-    return use.answer.outcome == FunctionOutcome::unreachable;
-  };
-  const auto first = std::ranges::find_if(uses, is_unreachable);
-  if (first == uses.end()) return {};
-  const auto count = std::ranges::count_if(uses, is_unreachable);
+  const auto [first, others] = those_of(uses, FunctionOutcome::unreachable);
+  if (first == nullptr) return {};
   return first->answer.provenance->owner + " says that there is no " + application(first->call) +
          (first->answer.reason.empty() ? "" : ", " + first->answer.reason) +
-         (count > 1 ? ", and " + std::to_string(count - 1) + " more" : "");
+         (others > 0 ? ", and " + std::to_string(others) + " more" : "");
 }
 
 temporal::FunctionValueUse recorded(const FunctionUse& use) {

@@ -22,7 +22,7 @@ step flying 0 "$status"
 owner=$(pgrep -P $launcher -x sim_svc)
 kill -STOP $owner
 kill -KILL "$(grep -o '"leader":"[^}]*"process_id":[0-9]*' <<<"$status" | grep -o '[0-9]*$')"
-while flying && kill -0 $owner 2>/dev/null && ! grep -qs 'would lead' "$folder"/run/exec_svc*.log; do sleep 0.1; done
+grep -qm1 'would lead' < <(tail -q -n +1 -F --pid=$owner "$folder"/run/exec_svc*.log 2>/dev/null)
 step lacks 0 "\"$(grep -h 'would lead' "$folder"/run/exec_svc*.log | tail -n 1)\""
 wait $launcher
 step launch $? "$(tail -n 1 "$folder/summary")"
