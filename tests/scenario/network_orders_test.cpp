@@ -217,7 +217,8 @@ TEST_P(NetworkAndDeath, ADamagedNetworkIsToldAndTheMissionsOwnIsInForce) {
 }
 
 // What people do, with `roci`: each of the three classes of R118 is one action.
-// Without the value the farewell waits for ever.
+// Without the value the farewell waits for ever, and without the new network the view does:
+// so a plan with it is executed, however late it is heard.
 TEST_P(NetworkOrders, EachClassOfTheGroundIsOneActionOfTheConsole) {
   edit(mission_ / "mission.yaml", "ground: {", "ground: {values: [lander.go], ");
   edit(mission_ / "network.yaml", "  hand: {kind: atomic}\n",
@@ -226,12 +227,13 @@ TEST_P(NetworkOrders, EachClassOfTheGroundIsOneActionOfTheConsole) {
        "    window_s: [3000, none]\n    pre: \"lander.go = go\"\n");
   fs::copy_file(mission_ / "network.yaml", mission_ / "changed.yaml", fs::copy_options::overwrite_existing);
   edit(mission_ / "changed.yaml", "version: 1\n", "version: 2\n");
-  edit(mission_ / "changed.yaml", "worth: 0.1", "worth: 0.15");
+  edit(mission_ / "network.yaml", "  look:\n", "  look:\n    pre: \"lander.go = go\"\n");
   fs::copy_file(mission_ / "changed.yaml", mission_ / "broken.yaml");
   edit(mission_ / "broken.yaml", "[look, send_view]", "[look, send_everything]");
   scenario("", "");
+  edit(mission_ / "scenarios/ground.yaml", "duration_s: 14400", "duration_s: 86400");
   const services::process::DomainClaim domain;
-  const Ended ended = run("timeout 120 " ROCI_SOURCE_DIR "/tests/scenario/network_orders.sh ${PATH%%:*} " +
+  const Ended ended = run("timeout 300 " ROCI_SOURCE_DIR "/tests/scenario/network_orders.sh ${PATH%%:*} " +
                           mission_.string() + " " + GetParam() + " " + std::to_string(domain.id()));
   auto steps = steps_of(ended.output);
   EXPECT_EQ(steps["upload"].exit_code, 0) << ended.output;
