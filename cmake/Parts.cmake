@@ -13,10 +13,11 @@
 # Release builds compile many sources of a part at once (CMake's unity build, CMakePresets.json), which takes a third of the time. Two sources
 # that give one name to two private things cannot be compiled so: give them two names, or list one of them under ALONE.
 #
-# googletest, JSON and what of the standard library nearly every test includes is compiled once, ahead of the others; builds without that (preset dev,
-# and those of ./check --full) show that each source includes what it uses.
+# What of the standard library nearly every part includes is compiled once, ahead of the others, and so are googletest and JSON for the tests; builds
+# without that (preset dev, and those of ./check --full) show that each source includes what it uses.
 #
-# A part that is COLD does little but start, tell and end: its compile time counts for more than its speed.
+# A part that is COLD does little but start, tell and end: its compile time counts for more than its speed. A folder that is compiled with other
+# than -O2 says so: roci_optimize(-O3).
 #
 # Headers are included from the top of the tree: #include "core/pddl/parser.hpp".
 
@@ -29,21 +30,37 @@ find_package(GTest REQUIRED)
 find_package(nlohmann_json REQUIRED)
 include(GoogleTest)
 
+set(standard_headers <algorithm> <array> <chrono> <cmath> <filesystem> <fstream> <functional> <map> <memory> <optional> <set> <span> <sstream> <string>
+                     <unordered_map> <vector>)
+
+# What a folder and those below it are compiled with in release builds.
+macro(roci_optimize level)
+  set(roci_optimization ${level})
+  add_compile_options($<$<CONFIG:Release>:${level}>)
+endmacro()
+
+set(roci_optimization -O2)
+file(CONFIGURE OUTPUT "${PROJECT_BINARY_DIR}/headers.cpp" CONTENT "")
+foreach(optimization -O0 -O1 -O2 -O3)
+  add_library(roci_headers${optimization} STATIC "${PROJECT_BINARY_DIR}/headers.cpp")
+  target_link_libraries(roci_headers${optimization} PRIVATE roci_warnings)
+  target_precompile_headers(roci_headers${optimization} PRIVATE ${standard_headers} <variant> <string_view> <utility>)
+  target_compile_options(roci_headers${optimization} PRIVATE $<$<CONFIG:Release>:${optimization}>)
+endforeach()
+
 file(CONFIGURE OUTPUT "${PROJECT_BINARY_DIR}/test_headers.cpp" CONTENT "int main() {}\n")
 function(_roci_test_headers target optimization)
   add_executable(${target} "${PROJECT_BINARY_DIR}/test_headers.cpp")
   set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/tests")
   target_link_libraries(${target} PRIVATE GTest::gtest GTest::gmock nlohmann_json::nlohmann_json roci_warnings)
-  target_precompile_headers(
-    ${target} PRIVATE <algorithm> <array> <chrono> <cmath> <filesystem> <fstream> <functional> <map> <memory> <optional> <set> <span>
-                      <sstream> <string> <unordered_map> <vector> <gmock/gmock.h> <gtest/gtest.h> <nlohmann/json.hpp>)
+  target_precompile_headers(${target} PRIVATE ${standard_headers} <gmock/gmock.h> <gtest/gtest.h> <nlohmann/json.hpp>)
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:${optimization}>)
 endfunction()
 _roci_test_headers(roci_test_headers -O0)
 _roci_test_headers(roci_optimized_test_headers -O1)
 
 function(_roci_part target)
-  cmake_parse_arguments(PART "COLD;NOT_INSTALLED" "NAME;HELP" "SOURCES;DEPENDS;PRIVATE_DEPENDS;ALONE" ${ARGN})
+  cmake_parse_arguments(PART "COLD;NOT_INSTALLED;LIBRARY" "NAME;HELP" "SOURCES;DEPENDS;PRIVATE_DEPENDS;ALONE" ${ARGN})
   set_source_files_properties(${PART_ALONE} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
   if(NOT PART_HELP)
     message(FATAL_ERROR "${target}: every part says in HELP what it is for")
@@ -55,14 +72,22 @@ function(_roci_part target)
                                               "$<BUILD_INTERFACE:\\1>")
   target_link_libraries(${target} PUBLIC ${PART_DEPENDS} PRIVATE ${PART_PRIVATE_DEPENDS} $<BUILD_INTERFACE:roci_warnings>)
   if(PART_COLD)
+    set(roci_optimization -O1)
     target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+  endif()
+  if(PART_LIBRARY)
+    target_precompile_headers(${target} REUSE_FROM roci_headers${roci_optimization})
+    if(roci_optimization STREQUAL -O3)
+      # With precompiled headers GCC 12 at -O3 tells boundless copies in "text" + std::string, too, that are none (GCC bug 105329).
+      target_compile_options(${target} PRIVATE $<$<AND:$<CXX_COMPILER_ID:GNU>,$<CONFIG:Release>>:-Wno-stringop-overflow;-Wno-array-bounds>)
+    endif()
   endif()
 endfunction()
 
 function(roci_library)
   cmake_parse_arguments(PART "COLD" "NAME;HELP" "SOURCES;DEPENDS;PRIVATE_DEPENDS;ALONE" ${ARGN})
   add_library(${PART_NAME} STATIC ${PART_SOURCES})
-  _roci_part(${PART_NAME} ${ARGN})
+  _roci_part(${PART_NAME} LIBRARY ${ARGN})
 endfunction()
 
 function(roci_program)

@@ -36,8 +36,6 @@ struct LegendEntry {
   double x, y;  // of its upper left corner
 };
 
-double seconds(temporal::Duration duration) { return std::chrono::duration<double>(duration).count(); }
-
 std::string escaped(std::string_view text) {
   std::string result;
   for (const char c : text) {
@@ -100,7 +98,7 @@ double scale_step(double whole) {
 class Picture {
  public:
   Picture(const Plan& plan, std::string_view title) : title_(title), lanes_(lanes_of(plan)) {
-    whole_ = std::max(seconds(plan.makespan), 1e-3);
+    whole_ = std::max(temporal::to_seconds(plan.makespan), 1e-3);
     std::size_t longest = 4;
     for (const Lane& lane : lanes_) {
       rows_ += lane.rows;
@@ -175,7 +173,7 @@ class Picture {
   }
 
   void draw(const Activity& activity, double y) {
-    const double from = seconds(activity.start), to = seconds(activity.end);
+    const double from = temporal::to_seconds(activity.start), to = temporal::to_seconds(activity.end);
     const double width = std::max(kNarrowest, x(to) - x(from));
     const std::string name = whole_name(activity);
     out_ << "<rect x=\"" << x(from) << "\" y=\"" << y << "\" width=\"" << width << "\" height=\"" << kRow - 4

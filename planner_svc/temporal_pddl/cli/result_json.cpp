@@ -14,8 +14,6 @@ namespace {
 
 constexpr int kDefect = 8;
 
-double seconds(temporal::Duration duration) { return std::chrono::duration<double>(duration).count(); }
-
 }  // namespace
 
 int exit_code(Verdict verdict) {
@@ -55,7 +53,8 @@ nlohmann::json statistics_json(const Result& result, double wall_s) {
   return {{"verdict", name_of(result.verdict)},
           {"reason", result.reason},
           {"warnings", result.warnings},
-          {"makespan", result.plan ? nlohmann::json(seconds(result.plan->makespan)) : nlohmann::json()},
+          {"makespan",
+           result.plan ? nlohmann::json(temporal::to_seconds(result.plan->makespan)) : nlohmann::json()},
           {"metric", result.plan ? nlohmann::json(result.plan->metric) : nlohmann::json()},
           {"actions", result.plan ? nlohmann::json(result.plan->activities.size()) : nlohmann::json()},
           {"wall_s", wall_s},
@@ -86,10 +85,10 @@ nlohmann::json plan_json(const Plan& plan) {
     const auto& start = plan.network.points[activity.start_point];
     nlohmann::json entry = {{"name", activity.name},
                             {"arguments", activity.arguments},
-                            {"start", seconds(activity.start)},
-                            {"duration", seconds(activity.end - activity.start)},
-                            {"earliest_start", seconds(start.earliest)}};
-    if (start.latest != temporal::no_bound) entry["latest_start"] = seconds(start.latest);
+                            {"start", temporal::to_seconds(activity.start)},
+                            {"duration", temporal::to_seconds(activity.end - activity.start)},
+                            {"earliest_start", temporal::to_seconds(start.earliest)}};
+    if (start.latest != temporal::no_bound) entry["latest_start"] = temporal::to_seconds(start.latest);
     activities.push_back(std::move(entry));
   }
   return activities;
