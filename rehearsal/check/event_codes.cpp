@@ -12,7 +12,7 @@ const std::vector<std::string>& event_codes() {
       "goal.refused", "goal.rejected", "goal.suspected", "goal.weighed", "hazard.refused", "hazard.seen", "image.unreadable", "journal.damaged",
       "journal.diverged", "journal.shortened", "journal.waiting", "journal.written", "lead.split",
       "lead.whole", "ledger.unwritten", "map.changed", "map.finding_refused", "map.patch_refused", "map.patch_taken", "map.told", "map.unknown", "model.no_room", "motion.refused",
-      "network.accepted", "network.in_force", "network.refused", "observation.malformed", "order.accepted", "order.malformed", "order.no_room", "order.refused",
+      "network.accepted", "network.in_force", "network.refused", "observation.malformed", "order.accepted", "order.lost", "order.malformed", "order.no_room", "order.refused",
       "place.unusable", "plan.adopted", "plan.broken", "plan.conflict", "plan.finished", "plan.kept",
       "plan.malformed", "plan.outdated", "plan.refused", "plan.relaunched", "plan.retry", "plan.waits", "plan.wanted",
       "planner.blocked", "planner.cycle", "planner.defect", "planner.measured", "planner.network_damaged",
