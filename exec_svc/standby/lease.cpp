@@ -9,6 +9,7 @@ using journal::Position;
 
 namespace {
 
+constexpr int kRenewalsSeen = 3;     // may pass before a leader counts as one that does not renew
 constexpr std::uint64_t kNear = 64;  // batches; so close a follower is waited for
 
 // Returns the next epoch after `highest` of a member's own: the first has the odd ones, the second the even
@@ -105,7 +106,9 @@ Lease::Turn Lease::follow(const Position& newest, Moment now) {
   const bool wanted_before = request_.wanted;
   // It asks early, so that the way to the owners takes nothing of the time in which its right holds.
   const bool soon = right_holds(newest, now) && now - leaderless_since_ >= settings_.owner_term;
-  ask_owners(claimed ? !claimed->agreed : soon, now);
+  // What a leader that lives lacks for a moment, and its follower is granted meanwhile, keeps both from commanding.
+  const bool leader_lives = owner_leases_.other_renews(kRenewalsSeen * settings_.renewal, now);
+  ask_owners(!leader_lives && (claimed ? !claimed->agreed : soon), now);
   Turn out;
   out.speak = request_.wanted != wanted_before;
   if (!claimed) return out;

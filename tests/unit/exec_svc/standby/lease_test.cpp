@@ -237,6 +237,32 @@ void cut_off(PairWorld& world, Member member, bool cut = true) {
   cut_owners(world, member, cut);
 }
 
+// For how long the first one cannot command once an owner is heard again that it has not heard for `lost`; the members
+// do not hear each other since `apart` before that.
+standby::Moment unable_after(PairWorld& world, standby::Moment apart, standby::Moment lost) {
+  world.network.cut = true;
+  world.run(apart);
+  world.network.owner_cut[0] = {false, false, true};
+  world.run(lost);
+  world.network.owner_cut = {};
+  const standby::Moment healed = world.now();
+  while (!world.commands(kFirst) && world.now() - healed < 10s) world.run(10ms);
+  return world.now() - healed;
+}
+
+// It hears from the owners that its leader lives.
+TEST(Lease, AStandbyThatHearsNoLeaderTakesNothingWhileThatOneRenews) {
+  for (const standby::Moment apart : {0ms, 30'000ms}) {
+    for (const standby::Moment lost : {1600ms, 1700ms, 1800ms, 2000ms, 2200ms, 2600ms}) {
+      PairWorld world = paired();
+      EXPECT_LE(unable_after(world, apart, lost), 400ms)
+          << lost.count() << " us, apart for " << apart.count();
+      EXPECT_EQ(world.leads(), 1);
+      EXPECT_THAT(world.faults, IsEmpty());
+    }
+  }
+}
+
 TEST(Lease, AStandbyThatHearsNobodyNeverLeads) {
   PairWorld world = paired();
   cut_off(world, kSecond);
