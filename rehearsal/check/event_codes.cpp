@@ -6,7 +6,7 @@ const std::vector<std::string>& event_codes() {
   // clang-format off
   static const std::vector<std::string> codes = {
       "ack.foreign", "answer.no_room", "calls.damaged", "calls.resumed", "calls.settling", "calls.unwritten", "clock.drift", "clock.offset", "clock.set", "command.epoch_jump",
-      "command.foreign", "commander.doubled", "contract.mismatch", "datagram.refused", "epoch.refused",
+      "command.foreign", "commander.doubled", "contract.mismatch", "datagram.refused", "disk.full", "disk.room", "epoch.refused",
       "epoch.taken", "executive.resumed", "fact.left_out", "fallback.failed", "goal.accepted",
       "goal.achieved", "goal.dropped", "goal.failed", "goal.merged", "goal.no_room", "goal.recalled",
       "goal.refused", "goal.rejected", "goal.suspected", "goal.weighed", "hazard.refused", "hazard.seen", "image.unreadable", "journal.damaged",
