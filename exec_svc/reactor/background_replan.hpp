@@ -40,8 +40,8 @@ class BackgroundReplan final : public ReplanningPolicy {
   PolicyParts parts_;
   StopAndReplan stop_;
   std::optional<Call> call_;
-  /// The planner is to be asked again once it may be (PlannerCall::not_before), and what the plan has goes on until then.
-  /// It is so only while a plan is executed.
+  /// The planner is to be asked again once it may be (PlannerCall::not_before), and what the plan has goes on until
+  /// then. It is so only while a plan is executed.
   bool retry_ = false;
 };
 

@@ -33,9 +33,9 @@ class PlanningCycle {
   bool relax(const PlanReply& reply);
   /// Whether relax() would end a soft goal, and no hard one is at stake.
   bool soft_goal_would_leave(const PlanReply& reply) const;
-  /// The planner says that goals are out of reach, and was asked while somebody was away who tells what is so: no goal is
-  /// to end for that. Tells it, and sets the time before which the call is not to be made again (PlannerCall). False: the
-  /// reply counts, also where it has been asked often enough.
+  /// The planner says that goals are out of reach, and was asked while somebody was away who tells what is so: no goal
+  /// is to end for that. Tells it, and sets the time before which the call is not to be made again (PlannerCall).
+  /// False: the reply counts, also where it has been asked often enough.
   bool doubts(temporal::Time now, const PlanReply& reply);
   /// Another goal came: what the mission keeps back is kept again.
   void keep_reserves() { relaxed_.reserves = problem::Reserves::kept; }

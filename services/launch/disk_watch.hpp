@@ -1,5 +1,5 @@
-// A service that waits for a full disk cannot say so in its log, which stands on that disk, nor before it has joined the
-// others; so the launcher looks itself. It is pure.
+// A service that waits for a full disk cannot say so in its log, which stands on that disk, nor before it has joined
+// the others; so the launcher looks itself. It is pure.
 #pragma once
 
 #include <cstdint>

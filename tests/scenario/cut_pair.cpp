@@ -55,8 +55,9 @@ void expect_nothing_lost(const Cut& cut) {
   }
   if (std::string(cut.where) == "leader") {
     EXPECT_EQ(steps["hold"].exit_code, 0) << ended.output;
-    EXPECT_EQ(steps["lost"].printed, nlohmann::json(1)) << "the order is not in force, and that is told once\n"
-                                                        << ended.output;
+    EXPECT_EQ(steps["lost"].printed, nlohmann::json(1))
+        << "the order is not in force, and that is told once\n"
+        << ended.output;
   }
   EXPECT_TRUE(steps["healed"].printed["executive"].value("standby_ready", false)) << ended.output;
   if (merging) {

@@ -103,8 +103,8 @@ TEST_F(Endurance, ALeaderOfAPairWhoseDiskIsFullIsReplaced) {
   for (const auto& [command, count] : begun) EXPECT_EQ(count, 1) << command;
 }
 
-// The disk fills up in flight, and stays so for longer than a launcher waits for who is not heard: the executive goes on
-// where it stood, and nobody has killed it.
+// The disk fills up in flight, and stays so for longer than a launcher waits for who is not heard: the executive goes
+// on where it stood, and nobody has killed it.
 TEST_F(Endurance, AFullDiskIsWaitedOut) {
   const std::string fill = (run_folder / "fill").string(), out = (folder / "out").string();
   const Ended ended =

@@ -18,8 +18,8 @@ namespace roci::planner::utility_htn::reading {
 /// Maps names of one kind to their numbers.
 class Names {
  public:
-  /// `kind` is the word for it in messages: "timeline". Names that are looked up in vain go to `unknown`, which outlives
-  /// this.
+  /// `kind` is the word for it in messages: "timeline". Names that are looked up in vain go to `unknown`, which
+  /// outlives this.
   Names(std::string kind, UnknownNames& unknown) : kind_(std::move(kind)), unknown_(&unknown) {}
 
   /// Adds a name with the next number; fails where it stands already, with the place of the other.
