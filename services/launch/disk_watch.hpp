@@ -13,9 +13,8 @@ namespace roci::services::launch {
 /// Tells once when the run folder's disk is full, and once when it has room again.
 class DiskWatch {
  public:
-  static constexpr std::uintmax_t kFull = std::uintmax_t{64}
-                                          << 10U;  ///< with fewer bytes left a disk is full
-  static constexpr std::uintmax_t kRoom = std::uintmax_t{256} << 10U;  ///< with as many it has room again
+  static constexpr std::uintmax_t kFull = 65'536;   ///< with fewer bytes left a disk is full
+  static constexpr std::uintmax_t kRoom = 262'144;  ///< with as many it has room again
 
   struct Change {
     v1::Severity severity;
