@@ -367,7 +367,7 @@ TEST_P(StandbyTest, TheFollowerLeadsWhenTheLeaderIsGoneAndTheOldOneStandsDown) {
     return follower_->lead().has_value();
   }());
   EXPECT_EQ(follower_lease_->epoch(), 4U);
-  EXPECT_EQ(follower_standing_.read(), (PersistedTerm{4, true}));
+  EXPECT_EQ(follower_standing_.read(), (PersistedTerm{4, true, 3}));
   EXPECT_THROW(write(0, 1), StandDown);
   EXPECT_EQ(sent_, 0);
 }
