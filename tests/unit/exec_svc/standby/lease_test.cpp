@@ -465,9 +465,9 @@ TEST(LeaseAtRandom, NothingIsLostAndNothingIsDoneTwice) {
   for (std::uint64_t seed = 1; seed <= runs(); ++seed) ASSERT_THAT(faults_of_run(seed), IsEmpty()) << seed;
 }
 
-// Runs that once failed: a member that led unheard in a higher epoch went on past what the other had commanded
-// meanwhile (706, 4463); one whose disk was lost was let take over, as the leader took its word for what it now had (2336, 4543),
-// or led again in an epoch in which it had led before, unheard (4374).
+// Runs that once failed. In 706 and 4463 a member that led unheard in a higher epoch went on past what the other had
+// commanded meanwhile. In 2336 and 4543 one whose disk was lost was let take over, as the leader took its word for what
+// it now had. In 4374 one led again in an epoch in which it had led before its disk was lost, unheard.
 TEST(LeaseAtRandom, WhatOnceFailedHolds) {
   for (const std::uint64_t seed : {706, 2336, 4374, 4463, 4543})
     EXPECT_THAT(faults_of_run(seed), IsEmpty()) << seed;
