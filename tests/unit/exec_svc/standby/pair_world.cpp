@@ -494,8 +494,9 @@ std::vector<std::string> PairWorld::lost() const {
     }
     const GoalRecord& record = disk(*leading).goals.at(goal);
     if (record.revision < one.revision) out.push_back("a change of " + name);
+    // Of a goal that was achieved before it was recalled the leader's wish counts (goal_merge.hpp).
     const bool ended = record.state == GoalState::recalled || record.state == GoalState::achieved;
-    if (one.recalled && (!record.request.recalled || !ended)) out.push_back("the recall of " + name);
+    if (one.recalled && !ended) out.push_back("the recall of " + name);
   }
   return out;
 }
