@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/mission/findings.hpp"
+#include "core/mission/told_error.hpp"
 #include "core/words/nearest_word.hpp"
 
 namespace roci::mission {
@@ -181,6 +182,7 @@ void Entry::attempt(const std::function<void()>& read) const {
   if (document_->findings == nullptr) return read();
   try {
     read();
+  } catch (const ToldError&) {
   } catch (const FileError& error) {
     document_->findings->add(error.what());
   }

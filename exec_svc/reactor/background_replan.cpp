@@ -74,6 +74,7 @@ void BackgroundReplan::step(Time now, const ReactorInputs& inputs) {
   if (executing()) parts_.recovery.monitor(now, call_.has_value());
   if (!executing()) call_.reset();
   if (call_) proceed(now);
+  if (retry_) await_retry(now);
   const bool may_begin =
       state.phase != MissionPhase::pausing && (state.phase != MissionPhase::planning || reply != nullptr);
   if (state.replan_due() && may_begin) {
@@ -83,7 +84,10 @@ void BackgroundReplan::step(Time now, const ReactorInputs& inputs) {
       grant(now);
     }
   }
-  if (!executing()) call_.reset();
+  if (!executing()) {
+    call_.reset();
+    retry_ = false;
+  }
   if (state.phase == MissionPhase::pausing) stop_.continue_pause(now);
   const bool reply_wanted = state.phase == MissionPhase::planning || call_.has_value();
   parts_.call.cancel_if_stale(reply_wanted && !state.replan_wanted);
@@ -130,9 +134,16 @@ void BackgroundReplan::proceed(Time now) {
 void BackgroundReplan::act_on_failure(Time now, const PlanReply& reply) {
   MissionState& state = parts_.state;
   if (state.goals.open().empty()) return keep_plan(now);  // what ran has achieved them
-  if (parts_.call.is_end_of_cancelled(reply)) return state.want_plan(kModelChangedMeanwhile);
+  if (parts_.call.is_end_of_cancelled(reply) || parts_.call.count_as_stale(reply))
+    return state.want_plan(kModelChangedMeanwhile);
   if (!speaks_of_goals(reply.verdict))
     return parts_.recovery.break_plan(now, std::string("planner call ended as ") + to_string(reply.verdict));
+  if (parts_.planning.doubts(now, reply)) {
+    parts_.plan.hold_starts(false);
+    retry_ = true;
+    return;
+  }
+  parts_.call.clear_failures();
   if (parts_.planning.soft_goal_would_leave(reply)) {
     parts_.planning.relax(reply);
     keep_plan(now);
@@ -158,6 +169,14 @@ void BackgroundReplan::keep_plan(Time now) {
   } else {
     state.want_plan("without the goal that does not fit");
   }
+}
+
+/// A plan that is wanted meanwhile is asked for at once, and for all goals that are open.
+void BackgroundReplan::await_retry(Time now) {
+  MissionState& state = parts_.state;
+  retry_ = !state.replan_wanted && now < parts_.call.not_before();
+  if (retry_) return state.wake_at(parts_.call.not_before());
+  if (!state.replan_wanted) state.want_plan("the planner call is tried again");
 }
 
 void BackgroundReplan::change_plans(Time now) {

@@ -34,11 +34,15 @@ class BackgroundReplan final : public ReplanningPolicy {
   void proceed(temporal::Time now);
   void act_on_failure(temporal::Time now, const PlanReply& reply);
   void keep_plan(temporal::Time now);
+  void await_retry(temporal::Time now);
   void change_plans(temporal::Time now);
 
   PolicyParts parts_;
   StopAndReplan stop_;
   std::optional<Call> call_;
+  /// The planner is to be asked again once it may be (PlannerCall::not_before), and what the plan has goes on until
+  /// then. It is so only while a plan is executed.
+  bool retry_ = false;
 };
 
 }  // namespace roci::exec::reactor

@@ -91,7 +91,7 @@ void PlanningCycle::take_reply(Time now, const PlanReply& reply) {
                       "the planner calls every problem with it invalid: " + relaxed_.refusal);
     return begin(now);
   }
-  if (speaks_of_goals(reply.verdict) && ask_again_seeing(now, reply)) return;
+  if (doubts(now, reply)) return await_retry();
   if (accepted && !trials_.without.empty()) {
     take_trial(now, reply);
   } else if (reply.verdict == Verdict::solved && !relaxed_.soft_goals_left_out.empty()) {
@@ -235,15 +235,15 @@ bool PlanningCycle::soft_goal_would_leave(const PlanReply& reply) const {
   return soft_goal_to_give_up(reply, state_->goals, relaxed_).has_value();
 }
 
-bool PlanningCycle::ask_again_seeing(Time now, const PlanReply& reply) {
-  if (!call_->is_blind()) return false;
+bool PlanningCycle::doubts(Time now, const PlanReply& reply) {
+  if (!speaks_of_goals(reply.verdict) || !call_->is_blind()) return false;
   if (!call_->back_off(now)) {
     call_->forget_lost();
     return false;
   }
   const std::string away = call_->away();
-  retry(first_line(ending(reply)) + "; what it was told of may be old, as " +
-        (away.empty() ? "a service was away that observes it" : away + " is away"));
+  tell_retry(first_line(ending(reply)) + "; what it was told of may be old, as " +
+             (away.empty() ? "a service was away that observes it" : away + " is away"));
   return true;
 }
 
@@ -251,11 +251,15 @@ void PlanningCycle::try_again_later(Time now, const PlanReply& reply) {
   const std::string what = ending(reply);
   const bool may_pass = reply.verdict != Verdict::unsupported && reply.verdict != Verdict::invalid_input;
   if (!may_pass || !call_->back_off(now)) return safing_->make_safe(now, what);
-  retry(what);
+  tell_retry(what);
+  await_retry();
 }
 
-void PlanningCycle::retry(const std::string& reason) {
+void PlanningCycle::tell_retry(const std::string& reason) {
   state_->report(Severity::warning, "plan.retry", reason + "; will be tried again");
+}
+
+void PlanningCycle::await_retry() {
   state_->phase = MissionPhase::idle;
   state_->want_plan("the planner call is tried again");
   state_->wake_at(call_->not_before());

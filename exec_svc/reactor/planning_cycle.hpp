@@ -33,6 +33,10 @@ class PlanningCycle {
   bool relax(const PlanReply& reply);
   /// Whether relax() would end a soft goal, and no hard one is at stake.
   bool soft_goal_would_leave(const PlanReply& reply) const;
+  /// The planner says that goals are out of reach, and was asked while somebody was away who tells what is so: no goal
+  /// is to end for that. Tells it, and sets the time before which the call is not to be made again (PlannerCall).
+  /// False: the reply counts, also where it has been asked often enough.
+  bool doubts(temporal::Time now, const PlanReply& reply);
   /// Another goal came: what the mission keeps back is kept again.
   void keep_reserves() { relaxed_.reserves = problem::Reserves::kept; }
 
@@ -59,10 +63,8 @@ class PlanningCycle {
   void take_trial(temporal::Time now, const PlanReply& reply);
   void give_up_hard(const RelaxationStep& step);
   void try_again_later(temporal::Time now, const PlanReply& reply);
-  /// The planner says that goals are out of reach, and was asked while somebody was away who tells what is so: no goal
-  /// ends for that. False: it has been asked often enough, and is believed.
-  bool ask_again_seeing(temporal::Time now, const PlanReply& reply);
-  void retry(const std::string& reason);
+  void tell_retry(const std::string& reason);
+  void await_retry();
   void note_planned();
   /// Times of the starts beyond what the plan asks for: fixed ones at E2, the latest where the mission says so.
   void set_start_times(temporal::FlexiblePlan& plan) const;

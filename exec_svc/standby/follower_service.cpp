@@ -1,9 +1,12 @@
 #include "exec_svc/standby/follower_service.hpp"
 
 #include <algorithm>
+#include <iterator>
+#include <utility>
 
 #include "exec_svc/standby/standby_wire_service.hpp"
 #include "services/log/log.hpp"
+#include "services/node/make_event.hpp"
 
 namespace roci::exec::standby {
 
@@ -15,6 +18,9 @@ namespace topics = services::topics;
 namespace {
 
 constexpr Moment kHandOverAgain = std::chrono::seconds(1);
+// Who gave an order and is still there has said it to the leader by then.
+constexpr Moment kOrdersHeard = std::chrono::seconds(5);
+constexpr std::size_t kToldOrders = 20;  // one by one
 constexpr std::size_t kToldToLack = 64;  // lines of the log, for one follower
 
 }  // namespace
@@ -26,12 +32,17 @@ FollowerService::FollowerService(services::Node& node, std::string executive, Le
       lease_(&lease),
       journal_(&journal),
       persisted_term_(&persisted_term),
-      copy_(journal, [this] { apart_.keep(*journal_); }),
+      copy_(journal,
+            [this] {
+              apart_.keep(*journal_);
+              std::ranges::move(taken_orders(*journal_), std::back_inserter(apart_orders_));
+            }),
       apart_(std::move(apart)),
       handed_over_(apart_.goals()),
       messages_(services::advertise(node, topics::exec_member)),
       lease_requests_(services::advertise(node, topics::lease_request)),
-      goals_(services::advertise(node, topics::goal_hand_over)) {
+      goals_(services::advertise(node, topics::goal_hand_over)),
+      events_(services::advertise(node, topics::event)) {
   services::subscribe(node, topics::exec_member, [this](const v1::LeaseMessage& member) { hear(member); });
   services::subscribe(node, topics::lease_state, [this](const v1::LeaseState& state) { hear(state); });
   services::subscribe(node, topics::exec_journal, [this](const v1::JournalChunk& chunk) {
@@ -61,7 +72,10 @@ void FollowerService::take(const Chunk& chunk) {
   const JournalCopy::Result taken = copy_.take(chunk, lease_->epoch());
   if (taken == JournalCopy::Result::old || taken == JournalCopy::Result::corrupt) return;
   lease_->hear_leader(chunk.leader, moment());
-  if (taken == JournalCopy::Result::whole) handed_over_ = apart_.goals();
+  if (taken == JournalCopy::Result::whole) {
+    handed_over_ = apart_.goals();
+    orders_replaced_at_ = moment();
+  }
   if (taken != JournalCopy::Result::known) say();
 }
 
@@ -75,6 +89,23 @@ void FollowerService::hand_over() {
     goals_.write(to_wire(goal, executive_, lease_->request().member));
 }
 
+// They are not merged (orders_apart.hpp).
+void FollowerService::tell_lost_orders() {
+  if (apart_orders_.empty() || (!lead_ && moment() - orders_replaced_at_ < kOrdersHeard)) return;
+  const auto lost = unknown_orders(std::exchange(apart_orders_, {}), *journal_);
+  const auto tell = [this](const std::string& text) {
+    services::log::warning(text);
+    events_.write(services::node::make_event(v1::SEVERITY_WARNING, "order.lost", text));
+  };
+  for (std::size_t i = 0; i < std::min(lost.size(), kToldOrders); ++i)
+    tell(
+        "order " + lost[i].key + " (" + lost[i].what +
+        ") was taken by an executive that has been replaced since, " +
+        "and the one that leads has not heard of it: it is not in force; give it again if it is still meant");
+  if (lost.size() > kToldOrders)
+    tell(std::to_string(lost.size() - kToldOrders) + " more orders are not in force for the same reason");
+}
+
 void FollowerService::turn() {
   if (lead_) return;
   const Lease::Turn turn = lease_->turn(copy_.has(), moment());
@@ -82,8 +113,9 @@ void FollowerService::turn() {
   if (turn.speak) say();
   tell_what_it_lacks(turn);
   hand_over();
-  if (turn.change != Lease::Change::lead) return;
-  lead_ = turn;
+  if (turn.change == Lease::Change::lead) lead_ = turn;
+  tell_lost_orders();
+  if (!lead_) return;
   node_.stop();
 }
 

@@ -10,6 +10,7 @@
 #include "exec_svc/standby/goals_apart.hpp"
 #include "exec_svc/standby/journal_copy.hpp"
 #include "exec_svc/standby/lease.hpp"
+#include "exec_svc/standby/orders_apart.hpp"
 #include "exec_svc/standby/persisted_term_file.hpp"
 #include "services/node.hpp"
 #include "services/publisher.hpp"
@@ -22,7 +23,8 @@ class FollowerService {
   /// Stands on an observer's node, and so outside the simulated clock. All arguments must outlive it.
   /// `executive` is the logical name of the pair; what is said by and for another one is passed over.
   /// Goals that this member took in while it led apart and that the leader does not have are handed over to that
-  /// one; `apart` keeps them until then.
+  /// one; `apart` keeps them until then. Orders are not: of those that it took apart and the leader does not hear from
+  /// who gave them, operators are told (event order.lost).
   FollowerService(services::Node& node, std::string executive, Lease& lease, journal::Journal& journal,
                   PersistedTermFile& persisted_term, GoalsApart apart);
 
@@ -36,6 +38,7 @@ class FollowerService {
   void hear(const v1::LeaseState& state);
   void take(const Chunk& chunk);
   void hand_over();
+  void tell_lost_orders();
   void tell_what_it_lacks(const Lease::Turn&);
   void turn();
   void say();
@@ -52,9 +55,12 @@ class FollowerService {
   GoalsApart apart_;
   std::vector<goals::GoalRecord> handed_over_;  ///< that the leader may not have yet
   Moment handed_over_at_{0};
+  std::vector<TakenOrder> apart_orders_;  ///< of journals that were replaced
+  Moment orders_replaced_at_{0};
   services::Publisher<v1::LeaseMessage> messages_;
   services::Publisher<v1::LeaseRequest> lease_requests_;
   services::Publisher<v1::GoalHandOver> goals_;
+  services::Publisher<v1::Event> events_;
 };
 
 }  // namespace roci::exec::standby

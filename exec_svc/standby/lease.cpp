@@ -9,14 +9,17 @@ using journal::Position;
 
 namespace {
 
+// Who has lost its journal may have led in as many epochs that nobody can tell it of.
+constexpr std::uint64_t kUntoldEpochs = 100;
+constexpr int kRenewalsSeen = 3;     // may pass before a leader counts as one that does not renew
 constexpr std::uint64_t kNear = 64;  // batches; so close a follower is waited for
 
-// Returns the next epoch after `highest` of a member's own: the first has the odd ones, the second the even
-// ones.
+// The first member leads in odd epochs, the second in even ones.
+bool is_own(Member self, std::uint64_t epoch) { return (epoch % 2 == 1) == (self == Member::first); }
+
+// Returns the next epoch after `highest` of a member's own.
 std::uint64_t next_epoch(Member self, std::uint64_t highest) {
-  const std::uint64_t next = highest + 1;
-  const bool odd = next % 2 == 1;
-  return odd == (self == Member::first) ? next : next + 1;
+  return is_own(self, highest + 1) ? highest + 1 : highest + 2;
 }
 
 std::string milliseconds_text(Moment time) {
@@ -40,8 +43,12 @@ Lease::Lease(Member self, const LeaseSettings& settings, const PersistedTerm& pe
 void Lease::hear(const LeaseMessage& message, Moment now) {
   if (message.member == self_ || !believable(message.epoch)) return;
   other_ = Heard{message, now};
-  if (message.role != Role::leading) return note_epoch(message.epoch);
+  if (message.role != Role::leading) {
+    if (message.has.epoch <= own_epoch_) most_ = std::max(most_, message.has);
+    return note_epoch(message.epoch);
+  }
   hear_leader(message.epoch, now);
+  note_led(message.epoch);
   if (role_ == Role::leading || message.epoch < persisted_term_.epoch) return;
   const auto since = sent_since();
   entitled_ = message.entitled && since;
@@ -58,6 +65,7 @@ void Lease::hear_leader(std::uint64_t epoch, Moment now) {
 
 void Lease::hear(const OwnerWord& word, Moment now) {
   owner_leases_.hear(word, now);
+  note_led(word.newest_epoch);
   // Somebody has commanded in a later epoch, and this member has not heard of it.
   note_epoch(std::min(word.newest_epoch, persisted_term_.epoch + kEpochJump));
 }
@@ -73,9 +81,19 @@ void Lease::refused(std::uint64_t epoch) {
   note_epoch(std::min(epoch, known + kEpochJump));
 }
 
+void Lease::note_led(std::uint64_t epoch) {
+  if (is_own(self_, epoch)) return;
+  if (role_ == Role::following) {
+    told_epoch_ = std::max(told_epoch_, epoch);
+  } else if (epoch < own_epoch_ && epoch > persisted_term_.holds) {
+    unknown_epoch_ = epoch;
+    note_epoch(own_epoch_ + 1);  // so it is in doubt when it leads the next time
+  }
+}
+
 void Lease::note_epoch(std::uint64_t epoch) {
   if (epoch <= persisted_term_.epoch) return;
-  persisted_term_ = {epoch, false};
+  persisted_term_ = {epoch, false, persisted_term_.holds};
   entitled_ = false;
 }
 
@@ -83,7 +101,7 @@ Lease::Turn Lease::turn(const Position& newest, Moment now) {
   Turn out = role_ == Role::following ? follow(newest, now) : keep_leading(newest, now);
   if (out.change == Change::stand_down) return out;
   const bool wanted_before = request_.wanted;
-  if (role_ == Role::leading) ask_owners(true, now);
+  if (role_ == Role::leading) ask_owners(true, newest, now);
   out.speak = out.speak || out.change != Change::none || now - spoke_at_ >= settings_.renewal ||
               request_.wanted != wanted_before;
   if (!out.speak) return out;
@@ -93,8 +111,13 @@ Lease::Turn Lease::turn(const Position& newest, Moment now) {
   return out;
 }
 
-void Lease::ask_owners(bool wanted, Moment now) {
-  const std::uint64_t epoch = role_ == Role::leading ? own_epoch_ : next_epoch(self_, persisted_term_.epoch);
+std::uint64_t Lease::epoch_to_lead(const Position& newest) const {
+  const bool has_lost_all = newest == Position{} && persisted_term_.epoch > 0;
+  return next_epoch(self_, persisted_term_.epoch + (has_lost_all ? kUntoldEpochs : 0));
+}
+
+void Lease::ask_owners(bool wanted, const Position& newest, Moment now) {
+  const std::uint64_t epoch = role_ == Role::leading ? own_epoch_ : epoch_to_lead(newest);
   request_.epoch = epoch;
   request_.leads = role_ == Role::leading;
   request_.wanted = owner_leases_.wants(wanted ? std::optional(epoch) : std::nullopt, now);
@@ -105,7 +128,9 @@ Lease::Turn Lease::follow(const Position& newest, Moment now) {
   const bool wanted_before = request_.wanted;
   // It asks early, so that the way to the owners takes nothing of the time in which its right holds.
   const bool soon = right_holds(newest, now) && now - leaderless_since_ >= settings_.owner_term;
-  ask_owners(claimed ? !claimed->agreed : soon, now);
+  // What a leader that lives lacks for a moment, and its follower is granted meanwhile, keeps both from commanding.
+  const bool leader_lives = owner_leases_.other_renews(kRenewalsSeen * settings_.renewal, now);
+  ask_owners(!leader_lives && (claimed ? !claimed->agreed : soon), newest, now);
   Turn out;
   out.speak = request_.wanted != wanted_before;
   if (!claimed) return out;
@@ -115,11 +140,7 @@ Lease::Turn Lease::follow(const Position& newest, Moment now) {
     out.lacks = owner_leases_.missing(request_.epoch, now);
     return out;
   }
-  // Somebody led in an epoch of which this journal has nothing: what was done then is not known here.
-  const bool lacks_epoch = persisted_term_.epoch > newest.epoch;
-  out = lead(claimed->reason, now);
-  out.doubtful = claimed->doubtful || lacks_epoch;
-  return out;
+  return lead(*claimed, newest, now);
 }
 
 std::optional<Lease::Claim> Lease::claim(const Position& newest, Moment now) const {
@@ -160,16 +181,26 @@ bool Lease::wins(const LeaseMessage& other, const Position& newest) const {
   return newest > other.has || (newest == other.has && self_ == Member::first);
 }
 
-Lease::Turn Lease::lead(std::string reason, Moment now) {
+Lease::Turn Lease::lead(const Claim& claim, const Position& newest, Moment now) {
+  std::uint64_t holds = persisted_term_.holds;
+  if (!is_own(self_, newest.epoch)) holds = std::max(holds, newest.epoch);
+  // Somebody led in an epoch of which this journal has nothing: what was done then is not known here.
+  const bool lacks_epoch = persisted_term_.epoch > newest.epoch || told_epoch_ > holds;
+  const bool doubtful = claim.doubtful || lacks_epoch;
+  if (doubtful) holds = std::max({holds, told_epoch_, persisted_term_.epoch});
   role_ = Role::leading;
-  own_epoch_ = next_epoch(self_, persisted_term_.epoch);
-  persisted_term_ = {own_epoch_, true};
+  own_epoch_ = epoch_to_lead(newest);
+  persisted_term_ = {own_epoch_, true, holds};
+  most_ = {};
   replication_ = ReplicationState::alone;
   replication_since_ = now;
-  return {Change::lead, std::move(reason), false, true};
+  return {Change::lead, claim.reason, doubtful, true};
 }
 
 Lease::Turn Lease::keep_leading(const Position& newest, Moment now) {
+  if (unknown_epoch_ != 0)
+    return {Change::stand_down,
+            "another led in epoch " + std::to_string(unknown_epoch_) + ", which this journal does not hold"};
   if (persisted_term_.epoch > own_epoch_)
     return {Change::stand_down, "epoch " + std::to_string(persisted_term_.epoch) + " has a leader"};
   if (refused_) {
@@ -260,7 +291,7 @@ bool Lease::other_is_near(const Position& newest) const {
 }
 
 bool Lease::may_send(const Position& decided, Moment now) const {
-  if (role_ != Role::leading || superseded()) return false;
+  if (role_ != Role::leading || is_over()) return false;
   switch (replication_) {
     case ReplicationState::alone:
       return true;
@@ -275,7 +306,7 @@ bool Lease::may_send(const Position& decided, Moment now) const {
 }
 
 bool Lease::may_command(Moment now) const {
-  return role_ == Role::leading && !superseded() && owner_leases_.holds_all(own_epoch_, now);
+  return role_ == Role::leading && !is_over() && owner_leases_.holds_all(own_epoch_, now);
 }
 
 LeaseMessage Lease::message(const Position& newest) const {
@@ -290,7 +321,7 @@ LeaseMessage Lease::message(const Position& newest) const {
                                               persisted_term_.alone;
   out.said = spoke_at_;
   if (other_) {
-    out.receipt = other_->message.has;
+    out.receipt = role_ == Role::leading ? most_ : other_->message.has;
     out.echo = other_->message.said;
   }
   out.searching = role_ == Role::following && spoke_at_ - leaderless_since_ >= settings_.term;

@@ -24,7 +24,8 @@ struct LeaseMessage {
   /// Says of a leader that the other may take over once this message is a term old; says of a follower that
   /// it will, and that it hears all owners of commands.
   bool entitled = false;
-  /// Says of a leader what it knows that the other has; with less on its disk the other is not entitled.
+  /// Says of a leader the most that it has known the other to have; with less on its disk, as after its loss, the other
+  /// is not entitled.
   journal::Position receipt;
   bool searching = false;  ///< a follower that has heard no leader for a term
   Moment said{0};          ///< counts on the clock of who says it
@@ -52,6 +53,8 @@ struct LeaseSettings {
 struct PersistedTerm {
   std::uint64_t epoch = 0;  ///< the highest heard of or used
   bool alone = false;       ///< led in that epoch while the other was not entitled
+  /// The newest epoch of the other member's that this one's journal goes on from, or that it knew when it planned anew.
+  std::uint64_t holds = 0;
   bool operator==(const PersistedTerm&) const = default;
 };
 
@@ -75,7 +78,8 @@ class Lease {
   void hear(const LeaseMessage& message, Moment now);
   /// Takes in that something of the leader of this epoch's journal came.
   void hear_leader(std::uint64_t epoch, Moment now);
-  /// Takes in what an owner says of its lease.
+  /// Takes in what an owner says of its lease. A leader that learns from it that the other member has led in an epoch
+  /// that its journal does not hold stands down and leads anew, in doubt: what was commanded then is not known here.
   void hear(const OwnerWord& word, Moment now);
   /// Takes in that an owner refused this leader: somebody leads in this epoch or a later one. Whoever of the pair
   /// leads next does so in a later one still.
@@ -93,7 +97,7 @@ class Lease {
     std::string reason;     ///< says in plain words why it changed
     bool doubtful = false;  ///< lead: the other may have gone on from this journal, unheard, or has
     bool speak = false;     ///< message() is to be sent now
-    std::string lacks{};    ///< following: it would lead for this reason, and lacks the leases of these owners
+    std::string lacks{};  ///< following: it would lead for this reason, and lacks the leases of these owners
   };
   /// Says what to do now; it is to be called often, and after everything heard. When persisted_term() has
   /// changed, it goes to the disk before anything else is done.
@@ -126,6 +130,7 @@ class Lease {
     see(request_.epoch, request_.wanted, unleased_since_ ? now - *unleased_since_ : Moment(-1));
     see(takeover_forbidden_, entitled_, receipt_.epoch, receipt_.sequence, now - entitled_since_);
     see(now - leaderless_since_, own_epoch_, settled_, replication_, now - entitled_at_);
+    see(persisted_term_.holds, told_epoch_, unknown_epoch_, most_.epoch, most_.sequence);
     see(now - behind_since_, behind_, progress_.epoch, progress_.sequence, joined_at_.epoch,
         joined_at_.sequence);
   }
@@ -135,7 +140,9 @@ class Lease {
   OwnerRequest request() const { return request_; }
   const PersistedTerm& persisted_term() const { return persisted_term_; }
   /// Returns, of a leader that stands down, whether another one leads.
-  bool superseded() const { return refused_ || persisted_term_.epoch > own_epoch_; }
+  bool superseded() const {
+    return refused_ || persisted_term_.epoch > own_epoch_ + (unknown_epoch_ != 0 ? 1 : 0);
+  }
   Role role() const { return role_; }
   std::uint64_t epoch() const { return persisted_term_.epoch; }
 
@@ -147,8 +154,10 @@ class Lease {
     LeaseMessage message;
     Moment at{0};
   };
+  bool is_over() const { return refused_ || persisted_term_.epoch > own_epoch_; }
   bool believable(std::uint64_t epoch) const;
   void note_epoch(std::uint64_t epoch);
+  void note_led(std::uint64_t epoch);
   /// Is why a follower would lead, and what that takes.
   struct Claim {
     std::string reason;
@@ -156,9 +165,10 @@ class Lease {
     bool doubtful = false;  ///< the other may have gone on from this journal, unheard
   };
   Turn follow(const journal::Position& newest, Moment now);
-  void ask_owners(bool wanted, Moment now);
+  std::uint64_t epoch_to_lead(const journal::Position& newest) const;
+  void ask_owners(bool wanted, const journal::Position& newest, Moment now);
   bool should_hand_over(Moment now) const;
-  Turn lead(std::string reason, Moment now);
+  Turn lead(const Claim& claim, const journal::Position& newest, Moment now);
   Turn keep_leading(const journal::Position& newest, Moment now);
   void note_progress(const journal::Position& newest, Moment now);
   Turn update_replication(const journal::Position& newest, Moment now);
@@ -189,10 +199,13 @@ class Lease {
   journal::Position receipt_;  ///< this at least,
   Moment entitled_since_{0};   ///< is when it was said at the earliest
   Moment leaderless_since_;
+  std::uint64_t told_epoch_ = 0;  ///< following: the newest epoch in which the other is said to have led
   Moment started_;
 
-  std::uint64_t own_epoch_ = 0;  ///< leading
-  bool settled_ = false;         ///< had a turn since it leads; opening its endpoints may take a while
+  std::uint64_t own_epoch_ = 0;      ///< leading
+  std::uint64_t unknown_epoch_ = 0;  ///< the other has led in it, and this leader's journal does not hold it
+  journal::Position most_;           ///< that the other was heard to have since this one leads
+  bool settled_ = false;             ///< had a turn since it leads; opening its endpoints may take a while
   ReplicationState replication_ = ReplicationState::alone;
   Moment entitled_at_{0};  ///< is when this leader last said that the other may take over
   Moment replication_since_{0};

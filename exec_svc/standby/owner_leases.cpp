@@ -17,6 +17,10 @@ OwnerLeases::OwnerLeases(Member self, std::set<std::string> owners, Moment patie
 void OwnerLeases::hear(const OwnerWord& word, Moment now) {
   if (heard_.size() >= kOwners && !heard_.contains(word.owner)) return;
   Heard& heard = heard_[word.owner];
+  const OwnerWord& before = heard.word;
+  const bool other = word.holder && word.holder != self_;
+  if (other && before.holder == word.holder && before.epoch == word.epoch && word.echo > before.echo)
+    other_renewed_at_ = now;
   heard = {word, now};
   heard.word.term = std::clamp(word.term, Moment{0}, kLongestTerm);
   heard.word.echo = std::max(word.echo, Moment{0});

@@ -61,6 +61,9 @@ class OwnerLeases {
   bool hears_all(Moment within, Moment now) const;
   /// Returns whether the other member holds any of the leases, as far as is known.
   bool other_holds_any(Moment now) const;
+  /// Returns whether an owner has told within this time that the other member renews its lease there: it is alive and
+  /// commands, though it may be unheard.
+  bool other_renews(Moment within, Moment now) const { return now - other_renewed_at_ <= within; }
   /// Names the owners whose lease is missing, in plain words.
   std::string missing(std::uint64_t epoch, Moment now) const;
 
@@ -73,7 +76,7 @@ class OwnerLeases {
       see(now - heard.at, word.holder == self_ ? now - word.echo : Moment{0}, word.term);
     }
     see(partial_since_ ? now - *partial_since_ : Moment(-1),
-        silent_until_ ? *silent_until_ - now : Moment(-1));
+        silent_until_ ? *silent_until_ - now : Moment(-1), now - other_renewed_at_);
   }
 
  private:
@@ -89,6 +92,7 @@ class OwnerLeases {
   std::map<std::string, Heard> heard_;
   std::optional<Moment> partial_since_;
   std::optional<Moment> silent_until_;
+  Moment other_renewed_at_ = Moment::min() / 2;  // it was never heard of
 };
 
 }  // namespace roci::exec::standby

@@ -6,13 +6,13 @@ const std::vector<std::string>& event_codes() {
   // clang-format off
   static const std::vector<std::string> codes = {
       "ack.foreign", "answer.no_room", "calls.damaged", "calls.resumed", "calls.settling", "calls.unwritten", "clock.drift", "clock.offset", "clock.set", "command.epoch_jump",
-      "command.foreign", "commander.doubled", "contract.mismatch", "datagram.refused", "epoch.refused",
+      "command.foreign", "commander.doubled", "contract.mismatch", "datagram.refused", "disk.full", "disk.room", "epoch.refused",
       "epoch.taken", "executive.resumed", "fact.left_out", "fallback.failed", "goal.accepted",
       "goal.achieved", "goal.dropped", "goal.failed", "goal.merged", "goal.no_room", "goal.recalled",
       "goal.refused", "goal.rejected", "goal.suspected", "goal.weighed", "hazard.refused", "hazard.seen", "image.unreadable", "journal.damaged",
       "journal.diverged", "journal.shortened", "journal.waiting", "journal.written", "lead.split",
       "lead.whole", "ledger.unwritten", "map.changed", "map.finding_refused", "map.patch_refused", "map.patch_taken", "map.told", "map.unknown", "model.no_room", "motion.refused",
-      "network.accepted", "network.in_force", "network.refused", "observation.malformed", "order.accepted", "order.malformed", "order.no_room", "order.refused",
+      "network.accepted", "network.in_force", "network.refused", "observation.malformed", "order.accepted", "order.lost", "order.malformed", "order.no_room", "order.refused",
       "place.unusable", "plan.adopted", "plan.broken", "plan.conflict", "plan.finished", "plan.kept",
       "plan.malformed", "plan.outdated", "plan.refused", "plan.relaunched", "plan.retry", "plan.waits", "plan.wanted",
       "planner.blocked", "planner.cycle", "planner.defect", "planner.measured", "planner.network_damaged",

@@ -63,6 +63,29 @@ void check_programs(const CheckedMission& mission) {
   });
 }
 
+// The simulated clock is the simulator's, and without it no scenario is flown.
+void check_clock_master(const CheckedMission& mission, bool has_scenarios) {
+  const mission::ServiceEntry* master = mission.services.clock_master();
+  mission.file.at("services").each([&](const Entry& entry) {
+    const mission::ServiceEntry* service = mission.services.find(entry.at("name").text());
+    if (service == nullptr) return;
+    const bool simulates = program_of(*service) == kSimulator;
+    if (master == nullptr && simulates)
+      entry.complain(
+          "no service has clock: master, so that the mission could only be flown live; add it here");
+    if (service == master && !simulates && is_linked(*service))
+      entry.at("clock").complain(
+          "'" + program_of(*service) +
+          "' simulates nothing, and a clock that it drives brings no scenario about; give "
+          "clock: master to the service with the program sim_svc");
+  });
+  if (master == nullptr && has_scenarios && mission.services.of_program(kSimulator).empty())
+    mission.file.at("services")
+        .complain(
+            "the mission has scenarios, and no service that has clock: master to fly them; add for "
+            "example {name: sim_svc, clock: master}, or drop the scenarios");
+}
+
 void read_executives(CheckedMission& out, Findings& findings) {
   for (const mission::ServiceEntry* entry : out.services.of_program("exec_svc")) {
     note(findings, [&] {
@@ -159,7 +182,7 @@ void check_names(const CheckedMission& mission, Findings& findings) {
   note(findings, [&] { check_science(mission); });
   note(findings, [&] { check_watch(mission); });
   for (const CheckedScenario& scenario : mission.scenarios) {
-    note(findings, [&] { check_scenario(mission, scenario); });
+    note(findings, [&] { check_scenario(mission, scenario, findings); });
     note(findings, [&] { check_scenario_on_map(mission, scenario, findings); });
   }
 }
@@ -192,17 +215,18 @@ CheckReport check_mission(const std::filesystem::path& folder, const std::string
   if (mission.services.services.empty()) return out;
   note(out.findings, [&] { check_programs(mission); });
   mission.closed = std::ranges::all_of(mission.services.services, is_linked);
-  const mission::ServiceEntry* master = mission.services.clock_master();
-  const bool simulated = master != nullptr && program_of(*master) == kSimulator;
+  const auto simulators = mission.services.of_program(kSimulator);
+  const bool simulated = !simulators.empty();
   out.scenarios = scenario.empty() ? mission::scenario_names(folder) : std::vector<std::string>{scenario};
   // The usual one first: goals are planned from where it begins.
   std::ranges::stable_partition(out.scenarios, [](const std::string& name) { return name == "nominal"; });
   if (out.scenarios.empty() && simulated)
     file->complain(
         "the mission has no scenario, and a simulated flight needs one; add scenarios/nominal.yaml");
+  note(out.findings, [&] { check_clock_master(mission, !out.scenarios.empty()); });
   for (const std::string& name : out.scenarios) read_scenario(mission, name, simulated, out.findings);
   if (simulated && !mission.scenarios.empty())
-    mission.world = simulated_world(mission.scenarios.front().run, master->name);
+    mission.world = simulated_world(mission.scenarios.front().run, simulators.front()->name);
   read_executives(mission, out.findings);
   note_warnings(mission, out.findings);
   check_names(mission, out.findings);

@@ -1,6 +1,7 @@
 #include "rehearsal/check/scenario_check.hpp"
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <variant>
 
@@ -12,8 +13,8 @@ namespace roci::rehearsal::check {
 
 using exec::goals::GoalRequest, exec::goals::GoalSet;
 using exec::mission::Addressee;
-using mission::Entry;
-using sim::scenario::GoalStimulus, sim::scenario::Stimulus;
+using mission::Entry, mission::Findings, mission::Severity;
+using sim::scenario::GoalStimulus, sim::scenario::RecallStimulus, sim::scenario::Stimulus;
 
 namespace {
 
@@ -66,10 +67,46 @@ class GoalCheck {
   std::map<std::string, GoalSet> sets_;
 };
 
-void check_goals(const CheckedMission& mission, const CheckedScenario& scenario) {
+// A second goal of the same id is no goal of its own: it changes the first one.
+class RepeatedGoals {
+ public:
+  explicit RepeatedGoals(Findings& findings) : findings_(findings) {}
+
+  void send(const GoalStimulus& goal, temporal::Time at) {
+    const Entry id = goal.entry->at("id");
+    const auto [first, is_new] =
+        sent_.try_emplace({goal.issuer, goal.id}, Sent{at, mission::finding_of(id.place() + ": .").line});
+    if (is_new) return;
+    const std::string what =
+        "goal '" + goal.id + "' stands in line " + std::to_string(first->second.line) + " already";
+    if (at == first->second.at)
+      return id.complain(what + ", for the same time, and is changed by this one; give it another id");
+    findings_.add(id.place() + ": " + what +
+                      ", and is changed by this one; give it another id, if it is to be a goal of its own",
+                  Severity::warning);
+  }
+  // What was recalled may be sent again.
+  void recall(const RecallStimulus& recall) { sent_.erase({recall.issuer, recall.id}); }
+
+ private:
+  struct Sent {
+    temporal::Time at;
+    int line;
+  };
+  Findings& findings_;
+  std::map<std::pair<std::string, std::string>, Sent> sent_;
+};
+
+void check_goals(const CheckedMission& mission, const CheckedScenario& scenario, Findings& findings) {
   GoalCheck check(mission, scenario);
-  for (const Stimulus& stimulus : scenario.run.scenario.stimuli)
-    if (const auto* goal = std::get_if<GoalStimulus>(&stimulus.what)) check.submit(*goal, stimulus.at);
+  RepeatedGoals repeated(findings);
+  for (const Stimulus& stimulus : scenario.run.scenario.stimuli) {
+    if (const auto* recall = std::get_if<RecallStimulus>(&stimulus.what)) repeated.recall(*recall);
+    const auto* goal = std::get_if<GoalStimulus>(&stimulus.what);
+    if (goal == nullptr) continue;
+    repeated.send(*goal, stimulus.at);
+    check.submit(*goal, stimulus.at);
+  }
 }
 
 void check_windows_of(const CheckedMission& mission, const CheckedScenario& scenario) {
@@ -86,6 +123,35 @@ void check_windows_of(const CheckedMission& mission, const CheckedScenario& scen
   });
 }
 
+// Whether others than the scenario may send goals: who looks at images or watches, and programs of the mission's own.
+bool others_send_goals(const CheckedMission& mission) {
+  return !mission.closed || !mission.services.of_program("science_svc").empty();
+}
+
+// What these events tell begins with "goal ISSUER/ID", and a scenario names the part that it expects.
+void check_expected_goal(const CheckedMission& mission, const CheckedScenario& scenario,
+                         const std::string& code, const Entry& part) {
+  static constexpr std::array kNames{"goal.accepted", "goal.achieved", "goal.recalled", "goal.dropped",
+                                     "goal.failed"};
+  const std::string text = part.text();
+  const std::string name = text.substr(0, text.find_first_of(" :"));
+  if (name.empty() || name == "goal" || name == "hard" || !contains({kNames.begin(), kNames.end()}, code))
+    return;
+  std::vector<std::string> ids;
+  for (const Stimulus& stimulus : scenario.run.scenario.stimuli) {
+    const auto* goal = std::get_if<GoalStimulus>(&stimulus.what);
+    if (goal == nullptr) continue;
+    if ((goal->issuer + "/" + goal->id).find(name) != std::string::npos) return;
+    ids.push_back(goal->id);
+  }
+  // The end of a goal is told with its reason, of which this may be a part.
+  const bool a_reason = code == "goal.dropped" || code == "goal.failed";
+  const bool near = !words::nearest_word(name, ids).empty();
+  if (!near && (a_reason || others_send_goals(mission))) return;
+  part.fail("the scenario sends no goal '" + name + "', so that this is never told; " +
+            instead_of(name, ids));
+}
+
 void check_expected(const CheckedMission& mission, const CheckedScenario& scenario) {
   const auto expect = scenario.file.find("expect");
   if (!expect || !expect->is_sequence()) return;
@@ -93,6 +159,7 @@ void check_expected(const CheckedMission& mission, const CheckedScenario& scenar
     if (item.is_mapping() && item.fields().empty()) return;
     std::string code = item.is_mapping() ? item.fields().front().first : item.text();
     if (code.ends_with('+')) code.pop_back();
+    if (item.is_mapping()) check_expected_goal(mission, scenario, code, item.fields().front().second);
     if (code.empty() || contains(event_codes(), code)) return;
     if (!mission.closed && words::nearest_word(code, event_codes()).empty())
       return;  // of a program of its owner
@@ -134,8 +201,8 @@ GoalRequest request_of(const GoalStimulus& goal) {
   return out;
 }
 
-void check_scenario(const CheckedMission& mission, const CheckedScenario& scenario) {
-  check_goals(mission, scenario);
+void check_scenario(const CheckedMission& mission, const CheckedScenario& scenario, Findings& findings) {
+  check_goals(mission, scenario, findings);
   check_windows_of(mission, scenario);
   check_starts(mission, scenario);
   check_expected(mission, scenario);

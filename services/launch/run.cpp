@@ -16,6 +16,7 @@
 #include "services/clock/host_anchor.hpp"
 #include "services/clock/wall.hpp"
 #include "services/launch/continuation.hpp"
+#include "services/launch/disk_watch.hpp"
 #include "services/launch/domain_guard.hpp"
 #include "services/launch/log_files.hpp"
 #include "services/launch/notify_socket.hpp"
@@ -236,6 +237,7 @@ ExitCode fly(Options options, const std::function<int()>& stop_asked) {
     supervisor.watchdog().heard(change, clock::wall_now());
   });
   clock::SystemClockWatch clock_watch;
+  DiskWatch disk_watch;
   clock::WallTime look_at_logs = begun;
   supervisor.start(clock::wall_now());
   int stops = 0;
@@ -253,6 +255,10 @@ ExitCode fly(Options options, const std::function<int()>& stop_asked) {
     if (clock::wall_now() < look_at_logs) continue;
     look_at_logs = clock::wall_now() + kLookAtLogs;
     for (const std::string& service : options.services) bound_log(options.run_folder / (service + ".log"));
+    std::error_code error;
+    const fs::space_info space = fs::space(options.run_folder, error);
+    const auto disk = error ? std::nullopt : disk_watch.judge(space.available, options.run_folder.string());
+    if (disk) progress.report(disk->severity, disk->code, disk->text);
   }
 
   progress.end();

@@ -44,6 +44,10 @@ class LiveLoop : public Loop {
     if (heartbeat_) heartbeat_->leave();
   }
 
+  void beat() override {
+    if (heartbeat_) heartbeat_->beat(clock::wall_now(), true);
+  }
+
   void spin_once(std::chrono::milliseconds wait) override {
     open();
     NodeImpl& impl = node_;

@@ -21,6 +21,9 @@ class Loop {
   virtual temporal::Time now() const = 0;
   virtual void run() = 0;
   virtual void spin_once(std::chrono::milliseconds wait) = 0;
+  /// Is called while a handler waits for what may last (a full disk), and says to others that this service waits and
+  /// does not hang. Before the loop has begun it says nothing.
+  virtual void beat() = 0;
   virtual health::PeerState peer(std::string_view service) const = 0;
   /// Takes a decoded sample of a clocked topic. Null, under the simulated clock: the sample is counted, and no handler
   /// sees it.

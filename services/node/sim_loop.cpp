@@ -46,6 +46,10 @@ class SimLoop : public Loop {
     throw std::logic_error("spin_once: under the simulated clock a node runs with run()");
   }
 
+  void beat() override {
+    if (heartbeat_) heartbeat_->beat(clock::wall_now(), true);
+  }
+
   void run() override {
     open();
     while (!over_) turn();

@@ -17,7 +17,11 @@ constexpr int kNotifyMs = 200;
 
 }  // namespace
 
-DiskPause::DiskPause(Node& node) : DiskPause([&node] { node.impl().announce_turn(); }) {}
+DiskPause::DiskPause(Node& node)
+    : DiskPause([&node] {
+        node.impl().loop->beat();
+        node.impl().announce_turn();
+      }) {}
 
 bool DiskPause::wait() {
   const bool first = waits_ == 0;

@@ -17,7 +17,8 @@ class DiskPause {
   /// `notify` is called at least four times a second while it waits; null: nobody is to hear.
   explicit DiskPause(std::function<void()> notify = nullptr) : notify_(std::move(notify)) {}
 
-  /// The handlers of the node's turns (Node::on_turn) are called, its supervisor's among them.
+  /// The node goes on to beat, as a degraded service, so that nobody takes it for hung; and the handlers of its turns
+  /// (Node::on_turn) are called, its supervisor's among them.
   explicit DiskPause(Node&);
 
   /// Waits: 0.1 s the first time, twice as long each further time, at most 1 s. Returns whether it was the first time

@@ -223,6 +223,31 @@ TEST_P(StandbyTest, GoalsOfAReplacedJournalAreHandedOver) {
   ASSERT_EQ(follower_journal_->goals().size(), 1U);
 }
 
+// The other one led apart and took orders, of which the leader hears one again from who gave it.
+TEST_P(StandbyTest, OrdersOfAReplacedJournalAreToldIfTheLeaderDoesNotKnowThem) {
+  const auto order = [](Journal& journal, const std::string& key, const std::string& what, int stage) {
+    journal.append(temporal::seconds(9), "trace", "9000000 order " + key + " " + what);
+    journal.append(temporal::seconds(9), "trace",
+                   "9000000 ordered " + key + " stage=" + std::to_string(stage) + " 0 ");
+  };
+  follower_journal_->begin_epoch(1);
+  order(*follower_journal_, "ground/heard", "hold arm", 3);
+  order(*follower_journal_, "ground/unheard", "hold wheels", 3);
+  order(*follower_journal_, "ground/refused", "approve no-such", 2);
+  follower_journal_->commit();
+  order(*leader_journal_, "ground/heard", "hold arm", 3);
+  start_leader();
+  write(0, 3);
+  std::vector<std::string> told;
+  services::subscribe(*leader_node_, services::topics::event, [&](const v1::Event& event) {
+    if (event.code() == "order.lost") told.push_back(event.text());
+  });
+  start_follower();
+  ASSERT_TRUE(wait([&] { return !told.empty(); }));
+  ASSERT_EQ(told.size(), 1U);
+  EXPECT_TRUE(told[0].starts_with("order ground/unheard (hold wheels) was taken")) << told[0];
+}
+
 TEST_P(StandbyTest, ALateJoinerGetsTheWholeJournal) {
   for (int i = 0; i < 6000; ++i)
     leader_journal_->append(temporal::seconds(i), "event", std::string(100, 'y'));
@@ -342,7 +367,7 @@ TEST_P(StandbyTest, TheFollowerLeadsWhenTheLeaderIsGoneAndTheOldOneStandsDown) {
     return follower_->lead().has_value();
   }());
   EXPECT_EQ(follower_lease_->epoch(), 4U);
-  EXPECT_EQ(follower_standing_.read(), (PersistedTerm{4, true}));
+  EXPECT_EQ(follower_standing_.read(), (PersistedTerm{4, true, 3}));
   EXPECT_THROW(write(0, 1), StandDown);
   EXPECT_EQ(sent_, 0);
 }

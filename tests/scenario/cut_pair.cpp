@@ -53,6 +53,12 @@ void expect_nothing_lost(const Cut& cut) {
     EXPECT_EQ(steps["recall"].printed.value("acknowledged", ""), "journaled");
     EXPECT_EQ(goals_that_are("recalled", steps), 1) << ended.output;
   }
+  if (std::string(cut.where) == "leader") {
+    EXPECT_EQ(steps["hold"].exit_code, 0) << ended.output;
+    EXPECT_EQ(steps["lost"].printed, nlohmann::json(1))
+        << "the order is not in force, and that is told once\n"
+        << ended.output;
+  }
   EXPECT_TRUE(steps["healed"].printed["executive"].value("standby_ready", false)) << ended.output;
   if (merging) {
     ASSERT_EQ(steps["died"].printed.size(), 2U) << ended.output;

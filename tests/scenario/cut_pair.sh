@@ -6,8 +6,8 @@
 # is killed as soon as it begins to hand over), merging (as leader, and the second one dies when the first hands over what it has acknowledged meanwhile).
 # The hosts are network namespaces of its own, on a bridge in a fourth; no packet leaves them. Needs root.
 # Prints steps as ground_and_kills.sh does: flying, cut (the pair as the robot's host sees it), add (a goal sent
-# meanwhile), recall (of goal depot, with CUT leader or merging, from the host that is cut off), healed, ended (goals as they are in the
-# end), and, when all is ended, robot, first, second (exit code and summary of each launcher), begun (what the robot did) and
+# meanwhile), recall (of goal depot, with CUT leader or merging, from the host that is cut off), hold (an order, with CUT leader, from there), healed, ended (goals as they are in the
+# end), lost (how often the first executive says that the order is not in force), and, when all is ended, robot, first, second (exit code and summary of each launcher), begun (what the robot did) and
 # led (how often each executive began to lead).
 set -uo pipefail
 bin=$1 mission=$2 dds=$3 domain=$4 cut=$5 clock=$6 speed=$7
@@ -86,11 +86,16 @@ ended='("state":"achieved".*){4}'
 if [[ $cut == leader || $cut == merging ]]; then
   recalled=$(roci first goal cancel depot)
   step recall $? "$recalled"
+  [[ $cut == leader ]] && step hold $? "$(roci first order hold --id held)"
   ended='"id":"depot"[^}]*"state":"recalled"'
 fi
 part $cut off
 until_status healed robot '"standby_ready":true'
 until_status ended robot "$ended"
+if [[ $cut == leader ]]; then
+  until_log first 'order ground/held (hold) was taken'
+  step lost 0 "$(grep -ch 'order ground/held (hold) was taken' "$folder"/first/exec_svc*.log)"
+fi
 [[ $cut == merging ]] && step died 0 "[$(executive_of $second), $served]"
 kill -TERM $robot $first $second 2>/dev/null
 for host in robot first second; do

@@ -103,23 +103,26 @@ TEST_F(Endurance, ALeaderOfAPairWhoseDiskIsFullIsReplaced) {
   for (const auto& [command, count] : begun) EXPECT_EQ(count, 1) << command;
 }
 
-// The disk fills up in flight, until the mission says so.
+// The disk fills up in flight, and stays so for longer than a launcher waits for who is not heard: the executive goes
+// on where it stood, and nobody has killed it.
 TEST_F(Endurance, AFullDiskIsWaitedOut) {
-  const Ended ended = run(
-      "mkdir " + run_folder.string() + "; unshare -rm sh -c '" + waiting() +
-      "mount -t tmpfs -o size=3m,mode=700 tmpfs " + run_folder.string() + " || exit 77; (" + "timeout 280 " +
-      launch(kPlanetary, "--headless") + "; echo $? > " + (folder / "code").string() + ") > " +
-      (folder / "out").string() + " 2>&1 & until_it_says " + (run_folder / "journal.sqlite-wal").string() +
-      " plan.adopted; dd if=/dev/zero of=" + (run_folder / "fill").string() +
-      " bs=64k 2>/dev/null; dd if=/dev/zero of=" + (run_folder / "fill2").string() +
-      " bs=1 count=65536 2>/dev/null; until_it_says " + (folder / "out").string() + " journal.waiting; rm " +
-      (run_folder / "fill").string() + " " + (run_folder / "fill2").string() + "; wait; cp " +
-      (run_folder / "exec_svc.log").string() + " " + folder.string() + "/; cat " + (folder / "out").string() +
-      "; exit $(cat " + (folder / "code").string() + ")'");
+  const std::string fill = (run_folder / "fill").string(), out = (folder / "out").string();
+  const Ended ended =
+      run("mkdir " + run_folder.string() + "; unshare -rm sh -c '" + waiting() +
+          "mount -t tmpfs -o size=3m,mode=700 tmpfs " + run_folder.string() + " || exit 77; (" +
+          "timeout 280 " + launch(kPlanetary, "--headless") + "; echo $? > " + (folder / "code").string() +
+          ") > " + out + " 2>&1 & until_it_says " + (run_folder / "journal.sqlite-wal").string() +
+          " plan.adopted; for i in $(seq 180); do dd if=/dev/zero of=" + fill +
+          " bs=1024 count=4096 oflag=append conv=notrunc 2>/dev/null; sleep 0.1; done; until_it_says " + out +
+          " journal.waiting; rm " + fill + "; wait; cp " + (run_folder / "exec_svc.log").string() + " " +
+          (run_folder / "journal.sqlite").string() + " " + folder.string() + "/; cat " + out +
+          "; exit $(cat " + (folder / "code").string() + ")'");
   if (ended.exit_code == 77) GTEST_SKIP() << "this user cannot mount a small disk (unshare -rm)";
   expect_achieved(ended);
   EXPECT_THAT(text_of(folder / "exec_svc.log"), HasSubstr("the journal was written after"));
-  EXPECT_THAT(ended.output, HasSubstr("journal.waiting"));
+  EXPECT_THAT(ended.output, AllOf(HasSubstr("journal.waiting"), HasSubstr("disk.full")));
+  EXPECT_THAT(journaled_events(folder / "journal.sqlite"),
+              Not(::testing::Contains(HasSubstr("executive.resumed"))));
 }
 
 #ifdef ROCI_FAKETIME

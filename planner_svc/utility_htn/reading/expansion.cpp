@@ -8,7 +8,6 @@ namespace roci::planner::utility_htn::reading {
 namespace {
 
 constexpr std::size_t kMost = 2 * model::kMostTasks;
-constexpr std::size_t kMostFindings = 100;
 
 }  // namespace
 
@@ -30,8 +29,9 @@ std::vector<std::string> Expansion::values(const Source& source) {
   if (const auto found = sets_.find(name); found != sets_.end()) return found->second;
   std::vector<std::string> known;
   for (const auto& [set, members] : sets_) known.push_back(set);
-  source.fail("no set '" + name + "'; list the values, or name them under 'sets'" +
-              words::did_you_mean(name, known));
+  unknown_->fail({"set", name, "no set '" + name + "'",
+                  "list the values, or name them under 'sets'" + words::did_you_mean(name, known)},
+                 source);
 }
 
 std::vector<Bindings> Expansion::combinations(const Source& repeated) {
@@ -68,11 +68,10 @@ void Expansion::spend(const Source& list, std::size_t items) {
 }
 
 void Expansion::stop_at_many_findings() const {
-  if (findings_ != nullptr && findings_->errors() >= kMostFindings) throw Enough();
+  if (findings_->errors() >= kMostFindings) throw Enough();
 }
 
 void Expansion::stop(const Source& at, const std::string& what) {
-  if (findings_ == nullptr) at.fail(what);
   findings_->add(at.entry().place() + ": " + what);
   throw Enough();
 }
@@ -86,9 +85,10 @@ void Expansion::repeat(const Source& value, const std::function<void(const Sourc
   if (repetitions_ > kMost)
     stop(*repeated,
          "more than " + std::to_string(kMost) + " repetitions in one file; make the lists shorter");
-  const std::size_t before = findings_ == nullptr ? 0 : findings_->errors();
+  const auto faults = [this] { return findings_->errors() + unknown_->failures(); };
+  const std::size_t before = faults();
   for (const Bindings& bindings : all) {
-    if (findings_ != nullptr && findings_->errors() > before) return;
+    if (faults() > before) return;
     read(value.with(bindings));
   }
 }

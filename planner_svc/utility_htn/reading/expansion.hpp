@@ -10,6 +10,7 @@
 
 #include "core/mission/findings.hpp"
 #include "planner_svc/utility_htn/reading/source.hpp"
+#include "planner_svc/utility_htn/reading/unknown_names.hpp"
 
 namespace roci::planner::utility_htn::reading {
 
@@ -22,8 +23,12 @@ class Enough : public std::exception {};
 /// Repeats entries, at most so many in one file that memory is safe.
 class Expansion {
  public:
-  /// `findings`: where faults are noted; null: the first is thrown.
-  Expansion(Sets sets, mission::Findings* findings) : sets_(std::move(sets)), findings_(findings) {}
+  /// So many faults of a file are noted.
+  static constexpr std::size_t kMostFindings = 100;
+
+  /// `findings`: where faults are noted; `unknown`: where names of sets go that there are not. Both outlive this.
+  Expansion(Sets sets, mission::Findings& findings, UnknownNames& unknown)
+      : sets_(std::move(sets)), findings_(&findings), unknown_(&unknown) {}
 
   using Read = std::function<void(const std::string& key, const Source& value)>;
   /// Reads each field of a mapping, repeated as its `for` says. Faults of one repetition end the others of that field:
@@ -46,6 +51,7 @@ class Expansion {
 
   Sets sets_;
   mission::Findings* findings_;
+  UnknownNames* unknown_;
   std::size_t repetitions_ = 0;
   std::size_t items_ = 0;
 };

@@ -65,11 +65,13 @@ void Names::add(const std::string& name, const Source& source) {
 }
 
 std::uint32_t Names::index(std::string_view name, const Source& source) const {
+  if (faulty_.contains(name)) unknown_->fail_again(source);
   if (const auto found = known_.find(name); found != known_.end()) return found->second.index;
   std::vector<std::string> all;
   for (const auto& [known, entry] : known_) all.push_back(known);
-  source.fail("unknown " + kind_ + " '" + std::string(name) + "'; " +
-              words::nearest(name, all).remedy(listed(all)));
+  unknown_->fail({kind_, std::string(name), "unknown " + kind_ + " '" + std::string(name) + "'",
+                  words::nearest(name, all).remedy(listed(all))},
+                 source);
 }
 
 Amount Vocabulary::amount(const Source& source) const {

@@ -34,16 +34,18 @@ class YamlReader {
     root_.entry().allow_only({"format", "network", "version", "include", "constants", "sets", "ranks",
                               "batches", "budget", "exploration_bound", "cycle", "parameters", "timelines",
                               "templates", "tasks", "subway"});
+    const std::size_t before = faults();
     root_.entry().attempt([&] { include(may_include); });
     files_.push_back(root_);
+    mark_incomplete(before);
   }
 
   Read take() {
     const auto part = [&](const std::function<void()>& read) { root_.entry().attempt(read); };
     part([&] { read_constants(); });
     part([&] { read_sets(); });
-    expansion_ = Expansion(sets_, &findings_);
-    part([&] { read_head(); });
+    expansion_ = Expansion(sets_, findings_, unknown_);
+    read_head();
     part([&] { read_parameters(); });
     part([&] { read_timelines(); });
     vocabulary_.network = &network_;
@@ -52,10 +54,29 @@ class YamlReader {
     part([&] { read_budget(); });
     part([&] { read_cycle(); });
     part([&] { read_subway(); });
+    unknown_.report(findings_, Expansion::kMostFindings);
     return {std::move(network_), std::move(places_)};
   }
 
  private:
+  std::size_t faults() const { return findings_.errors() + unknown_.failures(); }
+
+  // What was not included may hold any name; a section whose key is misspelt is none of those that are there.
+  void mark_incomplete(std::size_t before_includes) {
+    const bool not_included = faults() > before_includes;
+    if (faults() == 0) return;
+    const auto mark = [&](std::string_view section, const std::string& kind) {
+      const bool there =
+          std::ranges::any_of(files_, [&](const Source& file) { return file.find(section).has_value(); });
+      if (not_included || !there) unknown_.hide(kind);
+    };
+    for (const auto& [section, kind] :
+         {std::pair{"sets", "set"}, std::pair{"parameters", "parameter"}, std::pair{"timelines", "timeline"},
+          std::pair{"tasks", "task"}, std::pair{"templates", "task"}, std::pair{"ranks", "rank"},
+          std::pair{"batches", "batch"}})
+      mark(section, kind);
+  }
+
   void include(bool permitted) {
     const auto format = root_.find("format");
     if (format && format->count(kMostCount) > static_cast<std::uint64_t>(kYamlFormat))
@@ -110,34 +131,50 @@ class YamlReader {
           const bool is_number = number.fault.empty() && number.name.empty();
           constants_[key] = is_number ? model::to_text(number.constant) : text;
         });
+        constants_.try_emplace(name, "1");  // stands for one with a fault, so that what uses it is read
       }
     });
   }
 
   void read_sets() {
-    Expansion lists({}, &findings_);
+    const std::size_t before = faults();
+    Expansion lists({}, findings_, unknown_);
     each_section("sets", [&](const Source& section) {
       for (const auto& [name, values] : section.fields())
         values.entry().attempt([&, &key = name, &set = values] { sets_[key] = lists.values(set); });
     });
+    if (faults() > before) unknown_.hide("set");
   }
 
   void read_head() {
-    network_.name = needed("network").text();
-    if (const auto version = single("version")) network_.version = version->count(kMostCount);
-    for (const Source& rank : needed("ranks").items()) {
-      vocabulary_.ranks.add(rank.text(), rank);
-      network_.ranks.push_back(rank.text());
-    }
-    if (const auto batches = single("batches"))
-      for (const Source& batch : batches->items()) {
-        vocabulary_.batches.add(batch.text(), batch);
-        network_.batches.push_back(batch.text());
+    const auto part = [&](const std::function<void()>& read) { root_.entry().attempt(read); };
+    part([&] { network_.name = needed("network").text(); });
+    part([&] {
+      if (const auto version = single("version")) network_.version = version->count(kMostCount);
+    });
+    part([&] { read_names(needed("ranks"), vocabulary_.ranks, network_.ranks); });
+    part([&] {
+      if (const auto batches = single("batches")) read_names(*batches, vocabulary_.batches, network_.batches);
+    });
+    part([&] {
+      if (const auto bound = single("exploration_bound"))
+        network_.exploration_bound = bound->count(kMostCount);
+    });
+  }
+
+  void read_names(const Source& list, Names& names, std::vector<std::string>& out) {
+    const std::size_t before = faults();
+    list.entry().attempt([&] {
+      for (const Source& one : list.items()) {
+        names.add(one.text(), one);
+        out.push_back(one.text());
       }
-    if (const auto bound = single("exploration_bound")) network_.exploration_bound = bound->count(kMostCount);
+    });
+    if (faults() > before) names.mark_incomplete();
   }
 
   void read_parameters() {
+    const std::size_t before = faults();
     each_section("parameters", [&](const Source& section) {
       expansion_.each_field(section, [&](const std::string& name, const Source& value) {
         vocabulary_.parameters.add(name, value);
@@ -153,6 +190,7 @@ class YamlReader {
         out.source = value.text_or("source", "");
       });
     });
+    if (faults() > before) vocabulary_.parameters.mark_incomplete();
   }
 
   void read_timeline(const Source& value, Definition& out) {
@@ -193,17 +231,25 @@ class YamlReader {
   }
 
   void read_timelines() {
+    const std::size_t before = faults();
     each_section("timelines", [&](const Source& section) {
       expansion_.each_field(section, [&](const std::string& name, const Source& value) {
         vocabulary_.timelines.add(name, value);
         note(Part::timeline, network_.timelines.size(), value);
         network_.timelines.emplace_back().name = name;
-        read_timeline(value, network_.timelines.back());
+        try {
+          read_timeline(value, network_.timelines.back());
+        } catch (const FileError&) {
+          vocabulary_.timelines.mark_faulty(name);
+          throw;
+        }
       });
     });
+    if (faults() > before) vocabulary_.timelines.mark_incomplete();
   }
 
   void name_tasks() {
+    const std::size_t before = faults();
     for (const auto& [section_name, is_template] :
          {std::pair{"templates", true}, std::pair{"tasks", false}}) {
       each_section(section_name, [&, &templates = is_template](const Source& section) {
@@ -214,6 +260,7 @@ class YamlReader {
         });
       });
     }
+    if (faults() > before) vocabulary_.tasks.mark_incomplete();
   }
 
   void read_all_tasks() {
@@ -224,11 +271,11 @@ class YamlReader {
       const std::string place = task.source.entry().place();
       if (place == faulty) continue;
       expansion_.stop_at_many_findings();
-      const std::size_t before = findings_.errors();
+      const std::size_t before = faults();
       task.source.entry().attempt([&] {
         network_.tasks[index] = read_task(task.id, task.source, vocabulary_, expansion_, task.is_template);
       });
-      if (findings_.errors() > before) faulty = place;
+      if (faults() > before) faulty = place;
     }
     named_.clear();
   }
@@ -286,8 +333,9 @@ class YamlReader {
   std::vector<Source> files_;  // those included, then the file itself
   Bindings constants_;
   Sets sets_;
-  Expansion expansion_{{}, nullptr};
-  Vocabulary vocabulary_;
+  UnknownNames unknown_;
+  Expansion expansion_{{}, findings_, unknown_};
+  Vocabulary vocabulary_{unknown_};
   Network network_;
   Places places_;
   std::vector<Named> named_;

@@ -195,5 +195,90 @@ TEST_F(BackgroundReplanning, AnUnavailablePlannerLeadsToThePauseAndIsAskedAgain)
   EXPECT_EQ(calls, 3);
 }
 
+// What runs goes on while a service is away that observes; its return asks again at once.
+TEST_F(BackgroundReplanning, NoSoftGoalIsDroppedByAProofOfAnOldPicture) {
+  bool away = false;
+  const Planner all = planner;
+  planner = [&, all](const PlanRequest& call) {
+    return away ? reply(Verdict::unsolvable, "not enough of it") : all(call);
+  };
+  other_events.emplace(seconds(20), [&] {
+    away = true;
+    pending.losses = {{"map_svc", "cut off", true}};
+    pending.goals.push_back(photo("3", GoalClass::opportunistic));
+  });
+  other_events.emplace(seconds(24), [&] {
+    away = false;
+    pending.arrivals = {"map_svc"};
+  });
+  run(1000, robot_and({photo("1"), photo("2")}));
+  EXPECT_EQ(std::ranges::count(trace, "plan.retry"), 1);
+  EXPECT_EQ(reactor.counts().dropped, 0U);
+  EXPECT_EQ(reactor.counts().achieved, 3U);
+  EXPECT_THAT(trace, Not(Contains("cancel")));
+  EXPECT_EQ(reactor.counts().planner_calls, 3U);
+}
+
+// Its calls run out as those of a planner that fails, and the running plan starts its activities meanwhile.
+TEST_F(BackgroundReplanning, AProofOfAnOldPictureIsBelievedInTheEnd) {
+  mission.executive.call_retries = 2;  // after 10 s and 20 s
+  reactor = Reactor(mission);
+  const Planner all = planner;
+  planner = [all](const PlanRequest& call) {
+    return asks_for(call, "3") ? reply(Verdict::unsolvable, "not enough of it") : all(call);
+  };
+  other_events.emplace(seconds(20), [this] {
+    pending.losses = {{"map_svc", "cut off", true}};
+    pending.goals.push_back(photo("3", GoalClass::opportunistic));
+  });
+  run(1000, robot_and({photo("1"), photo("2")}));
+  const auto last_call = std::find(trace.rbegin(), trace.rend(), "call").base();
+  EXPECT_EQ(std::count(trace.begin(), last_call, "image"), 2) << "the second one starts before the last call";
+  EXPECT_EQ(std::ranges::count(trace, "plan.retry"), 2);
+  EXPECT_EQ(reactor.counts().dropped, 1U);
+  EXPECT_EQ(reactor.counts().achieved, 2U);
+  EXPECT_EQ(reactor.plan_version(), 1U);
+  EXPECT_THAT(trace, Contains("plan.kept"));
+}
+
+// Nor is what runs cancelled for such a proof, where it speaks of a hard goal.
+TEST_F(BackgroundReplanning, NothingIsCancelledByAProofOfAnOldPicture) {
+  bool away = false;
+  const Planner all = planner;
+  planner = [&, all](const PlanRequest& call) {
+    return away ? reply(Verdict::unsolvable, "not enough of it") : all(call);
+  };
+  other_events.emplace(seconds(20), [&] {
+    away = true;
+    pending.losses = {{"map_svc", "cut off", true}};
+    pending.goals.push_back(photo("3"));
+  });
+  other_events.emplace(seconds(24), [&] {
+    away = false;
+    pending.arrivals = {"map_svc"};
+  });
+  run(1000, robot_and({photo("1"), photo("2")}));
+  EXPECT_EQ(reactor.counts().achieved, 3U);
+  EXPECT_THAT(trace, Not(Contains("cancel")));
+}
+
+// The proof and the change of the model that it does not know are heard in one step.
+TEST_F(BackgroundReplanning, NoSoftGoalIsDroppedByAProofForAnOlderModel) {
+  const Planner all = planner;
+  bool changed = false;
+  planner = [&, all](const PlanRequest& call) {
+    if (reactor.goals().open().size() < 3 || std::exchange(changed, true)) return all(call);
+    pending.models = {{"pathplan_svc", 2}};
+    return reply(Verdict::unsolvable, "no way");
+  };
+  send(20, photo("3", GoalClass::opportunistic));
+  reactor::ReactorInputs first = robot_and({photo("1"), photo("2")});
+  first.models = {{"pathplan_svc", 1}};
+  run(1000, std::move(first));
+  EXPECT_EQ(reactor.counts().dropped, 0U);
+  EXPECT_EQ(reactor.counts().achieved, 3U);
+  EXPECT_THAT(trace, Contains("plan.outdated"));
+}
+
 }  // namespace
 }  // namespace roci::exec::testing

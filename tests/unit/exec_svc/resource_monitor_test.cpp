@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 
 namespace roci::exec {
@@ -49,6 +50,19 @@ std::string shortfall(const ResourceMonitor& monitor, const temporal::Lookup& no
 
 std::string shortfall(const std::vector<Draw>& draws, double battery) {
   return shortfall(ResourceMonitor(plan_of(draws)), levels({{"(battery)", battery}}));
+}
+
+// The waiting activities gone through one by one.
+std::string by_hand(const temporal::FlexiblePlan& plan, const std::vector<bool>& waits, double battery) {
+  for (std::size_t i = 0; i < plan.activities.size(); ++i) {
+    if (!waits[i]) continue;
+    const auto& nodes = plan.activities[i].pre.nodes;
+    for (const temporal::ConditionNode& node : nodes)
+      if (node.timeline == "(battery)" && battery < std::get<double>(node.operand))
+        return plan.activities[i].id;
+    battery += std::get<double>(plan.activities[i].impacts.front().amount);
+  }
+  return "";
 }
 
 TEST(ResourceMonitor, NameTheFirstActivityThatWillLackSomething) {
@@ -112,6 +126,43 @@ TEST(ResourceMonitor, WhatARunningActivityWillStillGiveCountsForALowerBound) {
   EXPECT_EQ(shortfall(monitor, levels({{"(battery)", 20}})), "a2 will lack (battery) >= 60 (is 20)");
 }
 
+// Whatever the domain says of when a drive takes its energy, it takes it at once, in the end or little by little: no
+// alarm meanwhile while the plan fits, and what is taken counts once. What is lost beside it is missed as soon as no
+// such course could explain it, at its end at the latest.
+TEST(ResourceMonitor, WhatARunningActivityTakesCountsOnceWheneverItIsTaken) {
+  std::mt19937_64 random(11);
+  int fits = 0;
+  for (int round = 0; round < 2000; ++round) {
+    std::vector<Draw> draws(2 + random() % 5);
+    for (Draw& draw : draws) draw = {static_cast<double>(random() % 60), static_cast<double>(random() % 30)};
+    const temporal::FlexiblePlan plan = plan_of(draws);
+    ResourceMonitor monitor(plan);
+    const double begun = 80 + static_cast<double>(random() % 80), takes = draws[0].takes;
+    monitor.remove("a1");
+    monitor.begin("a1");
+    const double lost = static_cast<double>(random() % 3 == 0 ? random() % 40 : 0);
+    std::vector<bool> waits(draws.size(), true);
+    waits[0] = false;
+    const bool plan_fits = shortfall(monitor, levels({{"(battery)", begun - takes - lost}})).empty();
+    std::vector<double> parts{0, takes};
+    for (int i = 0; i < 6; ++i) parts.push_back(takes * static_cast<double>(random() % 101) / 100);
+    std::ranges::sort(parts);
+    for (const double taken : parts) {
+      if (plan_fits)
+        EXPECT_EQ(shortfall(monitor, levels({{"(battery)", begun - taken - lost}})), "") << round;
+    }
+    const double after = begun - takes - lost;
+    monitor.end("a1", levels({{"(battery)", after + 1}}));
+    const std::string expected = by_hand(plan, waits, after);
+    const std::string got = shortfall(monitor, levels({{"(battery)", after}}));
+    EXPECT_EQ(got.substr(0, got.find(' ')), expected) << round;
+    EXPECT_EQ(plan_fits, expected.empty()) << round;
+    fits += plan_fits ? 1 : 0;
+  }
+  EXPECT_GT(fits, 200);
+  EXPECT_LT(fits, 1800);
+}
+
 TEST(ResourceMonitor, AnUnseenLevelIsNoAlarm) {
   EXPECT_EQ(shortfall(ResourceMonitor(plan_of({{10, 5}})), levels({})), "");
 }
@@ -156,19 +207,6 @@ TEST(ResourceMonitor, OnlyWhatMustHoldIsADemand) {
   EXPECT_EQ(shortfall(ResourceMonitor(plan), levels({{"(battery)", 50}})), "");
   activity.pre = temporal::all_of({low, temporal::compare("(docked)", ConditionOp::eq, true)});
   EXPECT_NE(shortfall(ResourceMonitor(plan), levels({{"(battery)", 50}})), "");
-}
-
-// The waiting activities gone through one by one.
-std::string by_hand(const temporal::FlexiblePlan& plan, const std::vector<bool>& waits, double battery) {
-  for (std::size_t i = 0; i < plan.activities.size(); ++i) {
-    if (!waits[i]) continue;
-    const auto& nodes = plan.activities[i].pre.nodes;
-    for (const temporal::ConditionNode& node : nodes)
-      if (node.timeline == "(battery)" && battery < std::get<double>(node.operand))
-        return plan.activities[i].id;
-    battery += std::get<double>(plan.activities[i].impacts.front().amount);
-  }
-  return "";
 }
 
 TEST(ResourceMonitor, AgreeWithAWalkOverThePlanWhileItIsWorkedOff) {

@@ -117,6 +117,12 @@ INSTANTIATE_TEST_SUITE_P(
                       Slip{kNominal, "world:\n", "wrold:\n", "unknown key 'wrold'", "did you mean 'world'?"},
                       Slip{kNominal, "goal.accepted: ridge", "goal.acepted: ridge", "an event 'goal.acepted'",
                            "did you mean 'goal.accepted'?"},
+                      Slip{kNominal, "goal.accepted: ridge", "goal.accepted: rigde",
+                           "the scenario sends no goal 'rigde'", "did you mean 'ridge'?"},
+                      Slip{kNominal, "  - {at_s: 10, goal: {issuer: ground, id: soil",
+                           "  - {at_s: 10, goal: {id: ridge, kind: photo, arguments: {x: 90, y: 60}}}\n"
+                           "  - {at_s: 10, goal: {issuer: ground, id: soil",
+                           "goal 'ridge' stands in line 10 already, for the same time", "give it another id"},
                       Slip{kNominal, "kind: photo", "kind: phtoo",
                            "goal 'ridge' will be rejected: unknown goal kind 'phtoo'",
                            "did you mean 'photo'?"},
@@ -127,6 +133,39 @@ INSTANTIATE_TEST_SUITE_P(
                       Slip{kNominal, "start: {x: 40, y: 40,", "start: {x: 40,", "'y' is missing", "add it"},
                       Slip{"scenarios/arm_fault.yaml", "fault: {component: arm,", "fault: {component: amr,",
                            "unknown component 'amr'", "did you mean 'arm'?"}));
+
+INSTANTIATE_TEST_SUITE_P(
+    Clock, PlanetarySlip,
+    ::testing::Values(
+        Slip{kMission, "- {name: sim_svc, clock: master} ", "- {name: sim_svc} ",
+             "no service has clock: master", "add it here"},
+        Slip{kMission,
+             "- {name: sim_svc, clock: master}                      # the world: every robot of it\n"
+             "  - {name: exec_svc, robot: rover, standby: true}",
+             "- {name: exec_svc, robot: rover, clock: master}\n  - {name: sim_svc}",
+             "'exec_svc' simulates nothing", "to the service with the program sim_svc"}));
+
+// A change of a goal can be meant.
+TEST(MissionCheck, AGoalThatIsSentAgainLaterIsTold) {
+  const CopiedMission copy(kPlanetary);
+  const std::string again = "  - {at_s: 90, goal: {id: ridge, kind: photo, arguments: {x: 90, y: 60}}}\n";
+  const int line = copy.edit(kNominal, "expect:\n", again + "expect:\n");
+  const CheckReport report = check_mission(copy.folder());
+  ASSERT_EQ(report.findings.size(), 1U) << ::testing::PrintToString(printed(report));
+  const mission::Finding& told = report.findings.all().front();
+  EXPECT_EQ(told.severity, mission::Severity::warning);
+  EXPECT_EQ(told.line, line);
+  EXPECT_THAT(told.what, HasSubstr("goal 'ridge' stands in line 10 "));
+  EXPECT_EQ(report.plans.planned.size(), 3U) << "it can be flown";
+}
+
+TEST(MissionCheck, AGoalThatIsRecalledMayBeSentAgain) {
+  const CopiedMission copy(kPlanetary);
+  copy.edit(kNominal, "expect:\n",
+            "  - {at_s: 50, recall: {id: ridge}}\n"
+            "  - {at_s: 90, goal: {id: ridge, kind: photo, arguments: {x: 90, y: 60}}}\nexpect:\n");
+  EXPECT_THAT(printed(check_mission(copy.folder())), IsEmpty());
+}
 
 class QuarrySlip : public ::testing::TestWithParam<Slip> {};
 

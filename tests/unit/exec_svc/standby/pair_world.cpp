@@ -254,6 +254,7 @@ void PairWorld::take(Member member, const Message& message) {
 void PairWorld::lead(Member member, bool doubtful) {
   ++leads_;
   Process& process = at(member);
+  process.leads_in = process.lease->epoch();
   process.fed = process.disk.newest();
   process.commanded.clear();
   process.unsent.clear();
@@ -273,7 +274,7 @@ void PairWorld::lead(Member member, bool doubtful) {
 }
 
 void PairWorld::commit(Process& process, const std::string& text, std::optional<GoalRecord> goal) {
-  const Position at{process.lease->epoch(), process.disk.newest().sequence + 1};
+  const Position at{process.leads_in, process.disk.newest().sequence + 1};
   process.disk.write({at, text, goal});
   process.unsent.push_back({at, text, std::move(goal)});
 }
@@ -469,6 +470,7 @@ std::optional<Member> PairWorld::leader() const {
 }
 
 bool PairWorld::copy_is_near() const {
+  if (!members_[0].disk.apart.empty() || !members_[1].disk.apart.empty()) return false;
   const auto& first = members_[0].disk.lines;
   const auto& second = members_[1].disk.lines;
   const auto [a, b] = std::ranges::mismatch(first, second, {}, &Line::at, &Line::at);
@@ -492,8 +494,9 @@ std::vector<std::string> PairWorld::lost() const {
     }
     const GoalRecord& record = disk(*leading).goals.at(goal);
     if (record.revision < one.revision) out.push_back("a change of " + name);
+    // Of a goal that was achieved before it was recalled the leader's wish counts (goal_merge.hpp).
     const bool ended = record.state == GoalState::recalled || record.state == GoalState::achieved;
-    if (one.recalled && (!record.request.recalled || !ended)) out.push_back("the recall of " + name);
+    if (one.recalled && !ended) out.push_back("the recall of " + name);
   }
   return out;
 }

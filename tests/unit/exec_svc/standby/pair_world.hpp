@@ -103,7 +103,7 @@ class PairWorld {
   std::size_t carried_out() const { return carried_out_; }
   std::size_t refused() const { return refused_; }
   standby::Lease& lease(standby::Member member) { return *at(member).lease; }
-  // One journal is the other but for its newest lines, three at most.
+  // One journal is the other but for its newest lines, three at most, and no goal of a replaced one is still apart.
   bool copy_is_near() const;
   bool has_goal(standby::Member member, int goal) const { return disk(member).goals.contains(goal); }
   std::set<int> acknowledged_goals() const;
@@ -125,6 +125,7 @@ class PairWorld {
     std::optional<standby::Lease> lease;  // none: dead
     bool paused = false;
     bool stops_before_sending = false;
+    std::uint64_t leads_in = 0;  // its own epoch, also once it knows a later one
     std::deque<Line> unsent;
     std::deque<Line> waiting;  // commands without leases
     std::set<int> commanded;   // goals, as its plan knows

@@ -85,6 +85,32 @@ TEST(NetworkFaults, AreToldAllAtOnceAndOnceForEachEntry) {
   EXPECT_EQ(std::ranges::count(all, '\n'), 4) << all;
 }
 
+// A declaration that cannot be read, or is missing, makes no fault of what uses it.
+TEST(NetworkFaults, OfADeclarationAreToldWithoutWhatStandsOnIt) {
+  const std::vector<Case> cases{
+      {"kind: atomic", "kind: atom", "unknown kind 'atom'"},
+      {"states: [landed", "states: [lended", "'phase' has no state 'landed'"},
+      {"sites: [0, 1]", "sites: {from: 1, to: 0}", "it ends before it begins"},
+      {"sites: [0, 1]", "sights: [0, 1]", "no set 'sites'"},
+      {"ranks: [mission, analysis]", "ranks: mission", "expected a list"},
+      {"timelines:", "timeline:", "unknown key 'timeline'"},
+      {"range: [10, 1000]", "range: 10", "expected a list"},
+      {"capacity_j: {value:", "capacity_j: {valeu:", "unknown key 'valeu'"},
+  };
+  for (const Case& c : cases) {
+    const std::string all = faults_of(with(kSound, c.from, c.to));
+    EXPECT_THAT(all, HasSubstr(c.says)) << c.from << " -> " << c.to;
+    EXPECT_LE(std::ranges::count(all, '\n'), c.to.starts_with("capacity_j") ? 2 : 1) << all;
+  }
+}
+
+TEST(NetworkFaults, ANameThatNobodyKnowsIsToldOnceWithAllItsPlaces) {
+  const std::string all = faults_of(with(kSound, "  battery: {kind", "  batery: {kind"));
+  EXPECT_EQ(std::ranges::count(all, '\n'), 1) << all;
+  EXPECT_THAT(all, HasSubstr("n.yaml:6:9: unknown timeline 'battery'; did you mean 'batery'?"));
+  EXPECT_THAT(all, HasSubstr("; it stands in lines 26, 27, 29, 39, too"));
+}
+
 TEST(NetworkFaults, WhatIsMuchIsRefusedBeforeItIsMade) {
   EXPECT_THAT(faults_of(with(kSound, "sites: [0, 1]", "sites: {from: 0, to: 40000}")),
               HasSubstr("repetitions"));
