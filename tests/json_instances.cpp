@@ -1,0 +1,3 @@
+#include "tests/json_instances.hpp"
+
+ROCI_JSON_INSTANCES()
