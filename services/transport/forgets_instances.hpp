@@ -11,8 +11,8 @@ class ForgetsInstances {
  public:
   virtual ~ForgetsInstances() = default;
   /// Disposes the instance whose key members the (whole) payload holds, and keeps nothing of it once every reader has
-  /// confirmed it. Fast DDS may do so in a later call that writes or forgets, when every reader has confirmed all that was
-  /// written (docs/dds.md, 16), and keeps one instance of a writer.
+  /// confirmed it. Fast DDS may do so in a later call that writes or forgets, when every reader has confirmed all that
+  /// was written (docs/dds.md, 16), and keeps one instance of a writer.
   virtual bool forget(std::span<const std::uint8_t> payload) = 0;
 };
 

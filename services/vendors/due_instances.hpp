@@ -13,14 +13,14 @@
 namespace roci::services::vendors {
 
 /// When a change that unregisters an instance is confirmed by all, Fast DDS 2.9 walks its history down from the newest
-/// change, takes out all that the instance has, and goes on at the same place of what is left (docs/dds.md, report 7). This
-/// class says what to write so that the walk ends and misses nothing:
+/// change, takes out all that the instance has, and goes on at the same place of what is left (docs/dds.md, report 7).
+/// This class says what to write so that the walk ends and misses nothing:
 /// - only while every reader has confirmed everything, so that no change but what follows is walked;
 /// - one instance is kept for ever: its changes are older than all that is walked, and the walk ends at them;
 /// - of several instances with older changes, the newest is followed by as many changes of the kept one as an
 ///   instance has, so that there is something left at the place where the walk goes on.
-/// Where a history keeps one sample of an instance, or none that is confirmed, nothing older is taken out with it: none of
-/// this is needed but the first.
+/// Where a history keeps one sample of an instance, or none that is confirmed, nothing older is taken out with it: none
+/// of this is needed but the first.
 class DueInstances {
  public:
   using Key = std::string;  ///< the vendor's hash

@@ -1,5 +1,5 @@
-// Thirty days of the Europa lander with a battery to match, every service a process of its own: after the first day planner
-// and executive take no more memory (R82).
+// Thirty days of the Europa lander with a battery to match, every service a process of its own: after the first day
+// planner and executive take no more memory (R82).
 #include <gtest/gtest.h>
 #include <unistd.h>
 
