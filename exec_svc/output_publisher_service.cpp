@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <utility>
 
 #include "exec_svc/mission/observed_names.hpp"
 #include "exec_svc/wire_service.hpp"
@@ -56,11 +57,13 @@ void OutputPublisher::send_goals(const Reactor& reactor) const {
     goal_statuses_.write(to_wire(*goal, executive_, ack_stage_));
 }
 
-void OutputPublisher::send_plan(const Reactor& reactor) const {
+void OutputPublisher::send_plan(const Reactor& reactor) {
   if (reactor.plan().version != 0) plans_.write(plan_sample(reactor.plan(), reactor.planned_actions()));
   if (const auto& executed = reactor.last_executed()) executed_.write(to_wire(*executed, executive_));
-  for (const StepStatus& step : reactor.steps())
+  for (const StepStatus& step : reactor.steps()) {
     steps_.write(to_wire(step, executive_, reactor.plan_version()));
+    if (!temporal::is_over(step.state)) told_steps_.insert(step.activity);
+  }
 }
 
 void OutputPublisher::send(const ReactorOutputs& out, std::uint32_t version,
@@ -75,12 +78,32 @@ void OutputPublisher::send(const ReactorOutputs& out, std::uint32_t version,
     send(std::move(sample));
   }
   for (const StepStatus& step : out.steps) {
-    const v1::StepStatus sample = to_wire(step, executive_, version);
+    v1::StepStatus sample = to_wire(step, executive_, version);
     sent(steps_.write(sample));
-    if (temporal::is_over(step.state)) steps_.dispose(sample);
+    if (temporal::is_over(step.state)) {
+      steps_.dispose(sample);
+      told_steps_.erase(step.activity);
+    } else {
+      told_steps_.insert(step.activity);
+    }
   }
+  if (out.adopted) end_steps_outside(*out.adopted);
   if (out.executed) tell(*out.executed);
   for (const Event& event : out.events) report(event);
+}
+
+// A step that a plan foresaw and its next version does not has no last word of its own.
+void OutputPublisher::end_steps_outside(const temporal::FlexiblePlan& plan) {
+  std::set<std::string> gone = std::move(told_steps_);
+  told_steps_.clear();
+  for (const temporal::PlanActivity& activity : plan.activities)
+    if (gone.erase(activity.id) > 0) told_steps_.insert(activity.id);
+  for (const std::string& activity : gone) {
+    v1::StepStatus name;
+    name.executive(executive_);
+    name.activity(activity);
+    steps_.dispose(name);
+  }
 }
 
 void OutputPublisher::send(v1::Command command) {

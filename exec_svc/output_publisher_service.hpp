@@ -34,7 +34,7 @@ class OutputPublisher {
 
   /// Goals, plan and steps as they stand, for who joins after a restart.
   void send_goals(const reactor::Reactor&) const;
-  void send_plan(const reactor::Reactor&) const;
+  void send_plan(const reactor::Reactor&);
   /// What a step decided, but for its planner call.
   /// `actions`: what the planner wrote for the plan that it adopts.
   void send(const reactor::ReactorOutputs&, std::uint32_t plan_version,
@@ -52,6 +52,7 @@ class OutputPublisher {
   void forget_told(const std::string& owner) { told_epoch_.erase(owner); }
   /// The executive has closed what it commanded there.
   void tell(const reactor::ExecutedPlan& executed);
+  void end_steps_outside(const temporal::FlexiblePlan& plan);
   void lose_owner(const std::string& owner);
   /// Leads the owner, which holds `held`, in later and later epochs up to this one: it takes no wider step
   /// (services/owner/command.hpp). False: the way is too long.
@@ -83,6 +84,7 @@ class OutputPublisher {
   services::Publisher<v1::GoalStatus> goal_statuses_;
   services::Publisher<v1::Plan> plans_;
   services::Publisher<v1::ExecutedPlan> executed_;
+  std::set<std::string> told_steps_;            // activities whose last word is still to come
   std::deque<v1::ExecutedPlan> told_executed_;  // keys of those that a late joiner gets
   services::Publisher<v1::StepStatus> steps_;
   services::Publisher<v1::MissionStatus> missions_;

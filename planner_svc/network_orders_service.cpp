@@ -209,6 +209,17 @@ void NetworkOrders::executed(std::uint32_t version) {
   if (any) keep(nullptr);
 }
 
+void NetworkOrders::nothing_to_plan() {
+  bool any = false;
+  for (NetworkRecord& one : kept_.orders) {
+    if (one.stage != NetworkStage::accepted) continue;
+    settle(one, NetworkStage::in_force, {});
+    tell(one);
+    any = true;
+  }
+  if (any) keep(nullptr);
+}
+
 void NetworkOrders::settle(NetworkRecord& one, NetworkStage stage, std::vector<std::string> reasons) {
   one.stage = stage;
   one.model = model_;
@@ -223,8 +234,11 @@ void NetworkOrders::settle(NetworkRecord& one, NetworkStage stage, std::vector<s
   } else if (stage == NetworkStage::accepted) {
     report(v1::SEVERITY_INFO, "network.accepted", what + " is accepted");
   } else if (stage == NetworkStage::in_force) {
-    report(v1::SEVERITY_INFO, "network.in_force",
-           what + " is in force with version " + std::to_string(one.plan_version) + " of the plan");
+    report(
+        v1::SEVERITY_INFO, "network.in_force",
+        what + " is in force" +
+            (one.plan_version == 0 ? "; there is nothing to plan now"
+                                   : " with version " + std::to_string(one.plan_version) + " of the plan"));
   }
 }
 

@@ -47,6 +47,8 @@ class NetworkOrders {
   void fail(const std::string& why);
   /// The executive runs this version of the plan.
   void executed(std::uint32_t version);
+  /// No plan runs, and the engine has none to make: what was accepted is in force without a version of the plan.
+  void nothing_to_plan();
 
  private:
   using Key = std::pair<std::string, std::string>;  // issuer, id

@@ -23,7 +23,7 @@ struct NetworkRecord {
   double value = 0;
   engine::ModelName model;          ///< in force when this was said
   std::uint32_t after_version = 0;  ///< with accepted: a later version of the plan is made with it
-  std::uint32_t plan_version = 0;   ///< with in_force: the first of them that was executed
+  std::uint32_t plan_version = 0;  ///< with in_force: the first of them that was executed; 0: none was needed
   std::vector<std::string> reasons;
   friend bool operator==(const NetworkRecord&, const NetworkRecord&) = default;
 };

@@ -277,6 +277,8 @@ void SteppedHost::end_step(Time now, StepResult result) {
     tell_outlook(now, result.output);
     tell_blocking(std::move(result.output.blocking));
     const auto wake = result.output.wake;
+    const auto& receipt = versions_.receipt();
+    if (!wake && !result.output.delta && receipt && receipt->version == 0) orders_.nothing_to_plan();
     if (wake && *wake > node_.now())
       wake_ = node_.at(*wake, [this] {
         wake_.reset();

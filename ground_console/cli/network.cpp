@@ -155,7 +155,8 @@ std::string network_line(const v1::NetworkStatus& status) {
   if (status.issuer().empty() && status.id().empty())
     return printable(status.planner() + " plans with " + network);
   std::string out = status.issuer() + "/" + status.id() + "  " + stage_name(status.stage());
-  if (status.stage() == v1::NETWORK_IN_FORCE) out += " with plan " + std::to_string(status.plan_version());
+  if (status.stage() == v1::NETWORK_IN_FORCE && status.plan_version() != 0)
+    out += " with plan " + std::to_string(status.plan_version());
   if (!network.empty() && status.stage() != v1::NETWORK_REFUSED) out += ": " + network;
   out = printable(out);
   for (const std::string& reason : status.reasons()) out += "\n  " + printable(reason);

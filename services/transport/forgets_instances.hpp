@@ -6,14 +6,13 @@
 
 namespace roci::services::transport {
 
-/// Is also a base of the writers of inproc and Cyclone DDS. Fast DDS 2.9 cannot: unregistering an instance of a
-/// transient-local writer makes it turn for ever when the last reader confirms it (docs/dds.md),
-/// and a disposed one is kept like others.
+/// Is also a base of the writers of all three transports.
 class ForgetsInstances {
  public:
   virtual ~ForgetsInstances() = default;
   /// Disposes the instance whose key members the (whole) payload holds, and keeps nothing of it once every reader has
-  /// confirmed it.
+  /// confirmed it. Fast DDS may do so in a later call that writes or forgets, when every reader has confirmed all that
+  /// was written (docs/dds.md, 16), and keeps one instance of a writer.
   virtual bool forget(std::span<const std::uint8_t> payload) = 0;
 };
 

@@ -1,6 +1,7 @@
 // The life of keyed instances: many of them, disposed, and left by their writers.
 #include <gmock/gmock.h>
 
+#include <chrono>
 #include <condition_variable>
 #include <fstream>
 #include <mutex>
@@ -137,16 +138,25 @@ TEST_P(Instances, WhatIsForgottenTakesNoMemory) {
   const auto writer = sender->create_writer(goal_endpoint(latched(32)), matches.writer_events());
   ASSERT_TRUE(matches.wait_for_match());
   auto* forgetting = dynamic_cast<transport::ForgetsInstances*>(writer.get());
-  if (forgetting == nullptr || GetParam().reader == "fastdds")
-    GTEST_SKIP() << "Fast DDS 2.9 keeps what is finished (docs/dds.md)";
+  ASSERT_NE(forgetting, nullptr);
+  if (GetParam().writer == "cyclonedds" && GetParam().reader == "fastdds")
+    GTEST_SKIP() << "what Fast DDS has not confirmed yet is most of what this test writes";
   const std::string large(8'000, 'x');
   const auto make_and_forget = [&](int from, int to) {
     for (int i = from; i < to; ++i) {
       ASSERT_TRUE(writer->write(goal("goal-" + std::to_string(i), i, "ground", large)));
       if (i < kAlive) continue;
       ASSERT_TRUE(forgetting->forget(goal("goal-" + std::to_string(i - kAlive), 0)));
-      std::unique_lock lock(mutex);  // so that nothing is merely under way
-      ASSERT_TRUE(changed.wait_for(lock, kDeadline, [&] { return ended > i - kAlive - 64; }));
+      // So that nothing is merely under way; Fast DDS forgets when it is asked and everything is confirmed.
+      const auto deadline = std::chrono::steady_clock::now() + kDeadline;
+      std::unique_lock lock(mutex);
+      while (
+          !changed.wait_for(lock, std::chrono::milliseconds(20), [&] { return ended > i - kAlive - 64; })) {
+        ASSERT_LT(std::chrono::steady_clock::now(), deadline);
+        lock.unlock();
+        forgetting->forget(goal("goal-" + std::to_string(i - kAlive), 0));
+        lock.lock();
+      }
     }
   };
   make_and_forget(0, kKeys / 6);

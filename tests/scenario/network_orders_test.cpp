@@ -115,6 +115,24 @@ TEST_P(NetworkOrders, AParameterIsInForceAndWhatHasNotBegunIsPlacedAnew) {
   EXPECT_THAT(deeds(), Contains("send far"));
 }
 
+// Then no version of the plan is made any more that could tell of them.
+TEST_P(NetworkOrders, WhatComesWhenEverythingIsExecutedIsInForceAtOnce) {
+  end_sooner();
+  pack("near.htn", "version: 1\n", "version: 2\n", "sets: {sites: [near, far]}", "sets: {sites: [near]}");
+  scenario(
+      "  - {at_s: 9000, network: {id: n2, file: ../near.htn}}\n"
+      "  - {at_s: 9100, parameter: {id: near, name: dig_s_near, value: 900}}\n",
+      "  - goal.achieved: all\n  - network.accepted: ground/n2\n"
+      "  - \"network.in_force\": \"there is nothing to plan now\"\n"
+      "  - network.accepted: ground/near\n"
+      "  - \"network.in_force\": \"there is nothing to plan now\"\n");
+  edit(mission_ / "scenarios/ground.yaml", "there is nothing to plan now\"\n  - goal.achieved: all\n",
+       "there is nothing to plan now\"\n");
+  const Flight flight = launch();
+  ASSERT_EQ(flight.exit_code, 0) << flight.summary.dump();
+  EXPECT_EQ(fault(flight), "");
+}
+
 TEST_P(NetworkOrders, WhatIsGivenTwiceIsTakenOnce) {
   scenario(
       "  - {at_s: 600, network: {id: n2, file: ../near.htn}}\n"

@@ -141,7 +141,7 @@ dds::DataWriterQos writer_qos(const transport::QosSettings& settings) {
   qos.endpoint().history_memory_policy = rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
   qos.publish_mode().kind = dds::SYNCHRONOUS_PUBLISH_MODE;
   qos.data_sharing().off();
-  qos.writer_data_lifecycle().autodispose_unregistered_instances = false;
+  qos.writer_data_lifecycle().autodispose_unregistered_instances = true;  // what is forgotten has ended
   // The default of 3 s would delay the first samples and every repair by as much.
   qos.reliable_writer_qos().times.heartbeatPeriod = Duration_t(0, 100 * kMillisecond);
   qos.reliable_writer_qos().times.nackResponseDelay = Duration_t(0, kMillisecond);

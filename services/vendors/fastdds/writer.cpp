@@ -1,14 +1,37 @@
 #include "services/vendors/fastdds/writer.hpp"
 
+#include <algorithm>
+
 #include "services/vendors/fastdds/bytes_type.hpp"
 #include "services/vendors/fastdds/guid.hpp"
 #include "services/vendors/fastdds/qos.hpp"
 #include "services/vendors/history_limits.hpp"
+#include "services/vendors/instance_table.hpp"
 
 namespace roci::services::vendors::fastdds {
 
 namespace dds = eprosima::fastdds::dds;
 using eprosima::fastrtps::Duration_t;
+
+namespace {
+
+const Duration_t kNoPatience(0, 0);
+// So many instances that are to be forgotten wait without holding up their writer, and then until each reader must have
+// confirmed what it has: twice the period of heartbeats (qos.cpp).
+constexpr std::size_t kWaiting = 48;
+const Duration_t kPatience(0, 200'000'000);
+
+int depth_of(const transport::QosSettings& qos) { return qos.transient_local ? qos.history_depth : 0; }
+
+DueInstances::Key key_of(const KeyHash& hash) { return {hash.begin(), hash.end()}; }
+
+Bytes key_only(const DueInstances::Instance& instance) {
+  Bytes bytes{instance.payload, {}, KeyHash{}};
+  std::copy(instance.key.begin(), instance.key.end(), bytes.key_hash->begin());
+  return bytes;
+}
+
+}  // namespace
 
 FastWriter::FastWriter(dds::Publisher& publisher, dds::Topic& topic,
                        const transport::EndpointDescription& endpoint, transport::WriterEvents events)
@@ -16,6 +39,7 @@ FastWriter::FastWriter(dds::Publisher& publisher, dds::Topic& topic,
       type_(endpoint.type),
       qos_(endpoint.qos),
       events_(std::move(events)),
+      due_(depth_of(endpoint.qos)),
       writer_(publisher.create_datawriter(&topic, writer_qos(endpoint.qos), this,
                                           dds::StatusMask::publication_matched())) {
   if (!writer_) throw transport::TransportError("Fast DDS refused a writer on " + endpoint.topic);
@@ -31,13 +55,52 @@ bool FastWriter::write(std::span<const std::uint8_t> payload) {
   Bytes bytes{payload, {}, {}};
   if (payload.size() < 4) return false;
   if (type_.keyed && !(bytes.key_hash = key_hash_of(type_, payload, false))) return false;
-  return has_space(payload.size()) && writer_->write(&bytes);
+  if (!has_space(payload.size())) return false;
+  if (!type_.keyed) return writer_->write(&bytes);
+  const std::lock_guard lock(mutex_);
+  due_.changed(key_of(*bytes.key_hash));
+  forget_due(kNoPatience);
+  return writer_->write(&bytes);
 }
 
 bool FastWriter::dispose(std::span<const std::uint8_t> payload) {
   Bytes bytes{payload, {}, {}};
   if (!type_.keyed || !(bytes.key_hash = key_hash_of(type_, payload, false))) return false;
-  return has_space(payload.size()) && writer_->dispose(&bytes, dds::HANDLE_NIL) == ReturnCode_t::RETCODE_OK;
+  if (!has_space(payload.size())) return false;
+  const std::lock_guard lock(mutex_);
+  due_.changed(key_of(*bytes.key_hash));
+  return writer_->dispose(&bytes, dds::HANDLE_NIL) == ReturnCode_t::RETCODE_OK;
+}
+
+bool FastWriter::forget(std::span<const std::uint8_t> payload) {
+  transport::Payload key;
+  const auto hash = type_.keyed ? key_hash_of(type_, payload, false) : std::nullopt;
+  if (!hash || !type_.serialized_key(payload, true, key)) return false;
+  const DueInstances::Instance instance{key_of(*hash), key_only_payload(key)};
+  const std::lock_guard lock(mutex_);
+  if (!due_.forget(instance)) {
+    dispose_kept(instance);
+  } else {
+    const bool patient = due_.waiting() % kWaiting == 0;
+    forget_due(patient ? kPatience : kNoPatience);
+  }
+  return true;
+}
+
+// An acknowledgement that overtakes the end of a group leaves the rest of it in the history; nothing else is lost.
+void FastWriter::forget_due(const Duration_t& patience) {
+  if (due_.waiting() == 0 || writer_->wait_for_acknowledgments(patience) != ReturnCode_t::RETCODE_OK) return;
+  const DueInstances::Group group = due_.take();
+  for (const DueInstances::Instance& instance : group.unregistered) {
+    Bytes bytes = key_only(instance);
+    writer_->unregister_instance(&bytes, dds::HANDLE_NIL);
+  }
+  for (int i = 0; i < group.times; ++i) dispose_kept(*group.kept);
+}
+
+void FastWriter::dispose_kept(const DueInstances::Instance& kept) {
+  Bytes bytes = key_only(kept);
+  writer_->dispose(&bytes, dds::HANDLE_NIL);
 }
 
 // Bounds a keep-all history itself, because Fast DDS cannot limit samples without limiting instances, and knows no
