@@ -34,7 +34,8 @@ struct TableEntry {
   /// The ways to search that a mission may name for it (Request::resolvers); none: it has one alone.
   std::vector<std::string> resolvers{};
   /// Of an engine with models of its own: the functions that one asks for, in its order. The model is the text that a
-  /// mission has of its file, the name that of the file where the text names none. One that cannot be read asks for none.
+  /// mission has of its file, the name that of the file where the text names none. One that cannot be read asks for
+  /// none.
   std::function<std::vector<AskedFunction>(const std::string& model, const std::string& name)>
       asked_functions{};
 };
