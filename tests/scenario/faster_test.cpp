@@ -142,7 +142,8 @@ TEST_F(FasterTrial, AScoutThatFindsNoWayBackIsLeftBehind) {
   EXPECT_THAT(deeds("downlink"), ::testing::ElementsAre("primary traverse_done"));
 }
 
-// Its own wheels end the primary's drive, the stand before it is taken, and the scout is too near to be seen: the scout stands behind it.
+// Its own wheels end the primary's drive, the stand before it is taken, and the scout is too near to be seen: the scout
+// stands behind it.
 TEST_F(FasterTrial, AScoutTooNearToBeSeenStandsBehindThePrimary) {
   const Flight flight = flown("hidden", 1023);
   EXPECT_EQ(flight.summary["goals"]["achieved"], 2);
