@@ -67,7 +67,7 @@ def main() -> int:
     parser.add_argument("--seed", type=int, default=1, help="of the first; the others count up (1)")
     parser.add_argument("--unrepaired", type=int, default=0, help="how many of the first ones fly again with repair switched off (0)")
     parser.add_argument("--kills", type=int, default=0, help="how many of the first ones fly again as processes that are killed (0)")
-    parser.add_argument("--unfeeling", type=int, default=0, help="how many of the first ones fly again with a primary whose wheels feel nothing (0)")
+    parser.add_argument("--unfeeling", type=int, default=0, help="of how many of the first ones those fly again, with a primary whose wheels feel nothing, in which they found soft soil (0)")
     parser.add_argument("--out", type=Path, required=True, help="folder for journals and results")
     parser.add_argument("--report", type=Path, help="Markdown file to write (default: OUT/field-trial-faster.md)")
     parser.add_argument("--mission", type=Path, default=ROOT / "missions/faster", help="its folder (missions/faster)")
@@ -100,7 +100,7 @@ def main() -> int:
         if number < arguments.unrepaired:
             record.unrepaired = fly(programs, bare, seed, out / "unrepaired" / name, exists[seed], arguments.flown)
             tell(f"{name} without repairs", record.unrepaired)
-        if number < arguments.unfeeling:
+        if number < arguments.unfeeling and record.flight.felt:
             record.unfeeling = fly(programs, numb, seed, out / "unfeeling" / name, exists[seed], arguments.flown)
             tell(f"{name} with wheels that feel nothing", record.unfeeling)
         if number < arguments.kills:

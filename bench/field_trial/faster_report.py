@@ -59,15 +59,18 @@ def reason_of(flight) -> str:
 
 
 def wheels(records: list) -> str:
-    """What the soil sensing of the primary's own wheels is good for, by the seeds that were flown with it and without."""
-    pairs = [one for one in records if one.unfeeling]
+    """What the soil sensing of the primary's own wheels costs and brings, by the seeds that were flown with it and without."""
+    pairs = [(one.flight, one.unfeeling) for one in records if one.unfeeling]
     if not pairs:
         return ""
-    felt = [one for one in pairs if one.flight.felt]
+    felt, unfelt = [one for one, _ in pairs], [one for _, one in pairs]
+
+    def of_both(what: str) -> str:
+        return f"{sum(getattr(one, what) for one in felt)} with it, {sum(getattr(one, what) for one in unfelt)} without"
+
     return f"""
-**The primary's own wheels.** Of the {len(pairs)} seeds that were flown with and without their soil sensing, {sum(one.flight.arrived for one in pairs)} arrive with it and
-{sum(one.unfeeling.arrived for one in pairs)} without; primaries dug in: {sum(one.flight.bogged for one in pairs)} and {sum(one.unfeeling.bogged for one in pairs)}; new plans: {sum(len(one.flight.replans) for one in pairs)} and {sum(len(one.unfeeling.replans) for one in pairs)}.
-They found soil that does not bear it in {len(felt)} of these flights (seeds {seeds([one.flight for one in felt])}). Only with them arrive seeds {seeds([one.flight for one in pairs if one.flight.arrived and not one.unfeeling.arrived])}, only without them {seeds([one.flight for one in pairs if one.unfeeling.arrived and not one.flight.arrived])}.
+**The primary's own wheels** found soil that does not bear it in {sum(one.flight.felt > 0 for one in records)} of the {len(records)} flights; in the others their sensing changes nothing, since its noise comes of a stream of its own.
+Flown again without it were seeds {seeds(felt)}. Of these arrive {of_both("arrived")}; primaries dug in: {of_both("bogged")}; new plans: {sum(len(one.replans) for one in felt)} with it, {sum(len(one.replans) for one in unfelt)} without.
 """
 
 
