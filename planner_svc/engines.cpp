@@ -22,7 +22,7 @@ const engine::Table& engines() {
        {engine::MakeAnswering([] { return std::make_unique<timeline_htn::adapter::TimelineEngine>(); }),
         [] { return std::make_unique<timeline_htn::checking::TimelineChecker>(); },
         [](const engine::Setup&) { return std::make_unique<timeline_htn::adapter::TimelineResolver>(); },
-        timeline_htn::search::resolver_names()}},
+        timeline_htn::search::resolver_names(), timeline_htn::adapter::asked_functions}},
       {"utility_htn",
        {engine::MakeStepped([](const engine::Setup& setup) {
           return std::make_unique<utility_htn::adapter::UtilityEngine>(

@@ -8,6 +8,7 @@ import re
 import shutil
 import sqlite3
 from collections import Counter
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -42,6 +43,8 @@ class Flight:
     repairs: list[Repair] = field(default_factory=list)
     replans: list[str] = field(default_factory=list)  # by cause
     entries: int = 0  # of the primary into circles that its map had
+    told: bool | None = None  # the last communication went out; nothing: not read, by an earlier version of this file
+    felt: int = 0  # times that the primary's own wheels found soil that does not bear it
     faults: list[str] = field(default_factory=list)
 
 
@@ -74,6 +77,8 @@ def read(flight: Flight, folder: Path, journal: str = "journal.sqlite") -> None:
     trace = [(us / 1e6, text.split(" ", 1)[1]) for us, kind, text in rows if kind == "trace"]
     state, flight.reason = goals.get("long_traverse", (-1, "the goal is lost"))
     flight.arrived = state == ACHIEVED
+    flight.told = goals.get("last_communication", (-1, ""))[0] == ACHIEVED
+    flight.felt = sum("primary says No-Go" in one["text"] for one in lines(folder / "events.jsonl"))
     flight.bogged = any("primary" in text and "bogged-down" in text for _, text in trace if text.startswith("ack"))
     flight.replans = [cause_of(text) for _, text in events if text.startswith("plan.broken")]
     flight.repairs = repairs_of(rows, lines(folder / "effects.jsonl"))
@@ -175,8 +180,8 @@ def entries_into(circles: list[tuple[float, float, float, float]], trace: list[t
     return out
 
 
-def without_repairs(mission: Path, folder: Path) -> Path:
-    """A copy of the mission in which the dedicated executives know no repair."""
+def without_blocks(mission: Path, folder: Path, begins: Callable[[Path, list[str], str], bool]) -> Path:
+    """A copy of the mission without the lines that `begins` is true of (file, lines before, line), and without what is indented below them."""
     shutil.rmtree(folder, ignore_errors=True)
     shutil.copytree(mission, folder)
     for file in folder.glob("*.yaml"):
@@ -185,9 +190,24 @@ def without_repairs(mission: Path, folder: Path) -> Path:
             indent = len(line) - len(line.lstrip())
             if depth is not None and line.strip() and indent <= depth:
                 depth = None
-            if depth is None and re.fullmatch(r" +repairs:", line.rstrip()):
+            if depth is None and begins(file, kept, line):
                 depth = indent
             if depth is None:
                 kept.append(line)
         file.write_text("\n".join(kept) + "\n")
     return folder
+
+
+def without_repairs(mission: Path, folder: Path) -> Path:
+    """A copy of the mission in which the dedicated executives know no repair."""
+    return without_blocks(mission, folder, lambda file, before, line: line.strip() == "repairs:")
+
+
+def without_soil_sensing(mission: Path, folder: Path) -> Path:
+    """A copy of the mission in which the primary's own wheels feel nothing; the scout's instruments are as they were."""
+
+    def begins(file: Path, before: list[str], line: str) -> bool:
+        robots = [one.split("name: ")[1] for one in before if re.fullmatch(r" {4}- name: \w+", one)]
+        return file.name == "mission.yaml" and line.strip() == "soil_sensor:" and robots[-1:] == ["primary"]
+
+    return without_blocks(mission, folder, begins)

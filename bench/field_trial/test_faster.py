@@ -8,7 +8,8 @@ from pathlib import Path
 
 import faster_report
 from faster import Record, loaded
-from faster_flights import Flight, cause_of, circles_of, entries_into, repairs_of, without_repairs
+from faster_flights import Flight, cause_of, circles_of, entries_into, repairs_of, without_repairs, without_soil_sensing
+from report import HAND
 
 ROOT = Path(__file__).resolve().parents[2]
 STEP = "p1.9-scout_locomotion.traversing_with_ss(w0, w1)"
@@ -69,10 +70,43 @@ class ReadsAFlight(unittest.TestCase):
             others = [{"seed": seed, "folder": "", "way_m": 16.0, "arrived": seed != 8, "reason": "out of reach", "repairs": [repair]} for seed in (7, 8)]
             (folder / "results.json").write_text(json.dumps([{"flight": one} for one in others]))
             page = folder / "page.md"
-            faster_report.write([Record(Flight(1, "", 16.0, arrived=True))], page, [loaded(folder)])
+            faster_report.write([Record(Flight(1, "", 16.0, arrived=True))], page, [[one.flight for one in loaded(folder)]])
             self.assertIn("| as it stands | 1 | 1 of 1 (100.0 %) |", page.read_text())
             self.assertIn("| seeds 7 to 8 | 2 | 1 of 2 (50.0 %) |", page.read_text())
             self.assertIn("Not arrived: seeds 8.\n\n- seed 8: out of reach", page.read_text())
+
+    def test_an_earlier_state_is_told_as_such_and_what_is_written_by_hand_stays(self):
+        with tempfile.TemporaryDirectory() as folder:
+            page = Path(folder) / "page.md"
+            page.write_text("# Old\n" + HAND + "\nSaid by somebody.\n")
+            now = Record(Flight(2, "", 16.0, arrived=False, reason="out of reach: no leg\ndetails", told=True))
+            before = Record(Flight(2, "", 16.0, arrived=True), unrepaired=Flight(2, "", 16.0, replans=["drive: no-go"]))
+            faster_report.write([now], page, [], [before])
+            text = page.read_text()
+            self.assertNotIn("# Old", text)
+            self.assertIn("| as it stands | 1 | 0 of 1 (0.0 %) |", text)
+            self.assertIn("| earlier state, seeds 2 to 2 | 1 | 1 of 1 (100.0 %) |", text)
+            self.assertIn("With repair switched off (1 flights, of the earlier state):", text)
+            self.assertIn("- seed 2: out of reach: no leg; the last communication went out\n", text)
+            self.assertTrue(text.endswith(HAND + "\nSaid by somebody.\n"))
+
+    def test_what_the_primarys_wheels_are_good_for(self):
+        with tempfile.TemporaryDirectory() as folder:
+            page = Path(folder) / "page.md"
+            pair = Record(Flight(3, "", 16.0, arrived=True, felt=1), unfeeling=Flight(3, "", 16.0, bogged=True))
+            faster_report.write([pair, Record(Flight(4, "", 16.0, arrived=True))], page)
+            self.assertIn("found soil that does not bear it in 1 of the 2 flights", page.read_text())
+            self.assertIn("without it were seeds 3. Of these arrive 1 with it, 0 without; primaries dug in: 0 with it, 1 without;", page.read_text())
+
+    def test_only_the_primarys_wheels_feel_nothing(self):
+        with tempfile.TemporaryDirectory() as folder:
+            numb = without_soil_sensing(ROOT / "missions/faster", Path(folder) / "numb")
+            before = (ROOT / "missions/faster/mission.yaml").read_text()
+            after = (numb / "mission.yaml").read_text()
+            self.assertEqual((before.count("soil_sensor:"), after.count("soil_sensor:")), (2, 1))
+            self.assertNotIn("left front wheel", after)
+            self.assertIn("penetrometer", after)
+            self.assertIn("- {name: eye, type: marker_camera", after)
 
     def test_repairs_switched_off(self):
         with tempfile.TemporaryDirectory() as folder:

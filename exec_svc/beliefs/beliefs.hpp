@@ -21,8 +21,9 @@ class Beliefs {
   /// Facts that hold for as long as a timeline has not been observed.
   void assume(const std::string& timeline, std::vector<std::string> facts);
   const temporal::Value* value(const std::string& timeline) const;
-  /// Takes in what the running plan has made of a timeline that nobody observes: goals and problems know it, conditions
-  /// of facts do not. Without a value it is as before any plan. Nothing, for one that was observed.
+  /// Takes in what the running plan has made of a timeline that nobody observes, or what the executive has found:
+  /// goals and problems know it, conditions of facts do not. Without a value it is as before any plan. Nothing, for
+  /// one that was observed.
   /// Returns whether it is news.
   bool conclude(const std::string& timeline, const std::optional<temporal::Value>& value);
   const std::map<std::string, temporal::Value>& concluded() const { return concluded_; }

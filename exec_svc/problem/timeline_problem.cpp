@@ -25,7 +25,16 @@ std::map<std::string, Value> state_at_origin(const Situation& situation) {
   return out;
 }
 
+// What is seen now counts, but not beyond a closing that comes before the origin.
+bool closes_until_origin(const WindowModel& window, const Situation& situation) {
+  return std::ranges::any_of(window.open, [&](const auto& interval) {
+    return interval.first <= situation.now && situation.now < interval.second &&
+           interval.second <= situation.origin;
+  });
+}
+
 void add_window(const WindowModel& window, const Situation& situation, Problem& out) {
+  if (closes_until_origin(window, situation)) out.state.insert_or_assign(window.timeline, false);
   for (const OpenInterval& interval : intervals_ahead(window, situation)) {
     if (interval.from <= situation.origin) {
       out.state.insert_or_assign(window.timeline, true);

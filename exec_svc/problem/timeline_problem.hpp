@@ -6,9 +6,9 @@
 namespace roci::exec::problem {
 
 /// State, predictions and objects. The state holds every timeline that was observed, with what the forecast
-/// changes of it; a predicted window is true at the origin if it is open then, and each later opening and closing
-/// is a prediction. Objects are the mission's and those of goals; dynamic ones, and those of goals that have ended,
-/// only while a state names them.
+/// changes of it; a predicted window is true at the origin if it is open then, false if it is open now and closes until
+/// then, and each later opening and closing is a prediction. Objects are the mission's and those of goals; dynamic
+/// ones, and those of goals that have ended, only while a state names them.
 Problem write_timeline_problem(const Situation& situation);
 
 }  // namespace roci::exec::problem

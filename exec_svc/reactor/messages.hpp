@@ -142,7 +142,8 @@ struct ReactorOutputs {
   std::vector<AnswerReceipt> answer_receipts;       ///< one for each answer that was not known
   std::vector<orders::OrderStatus> order_statuses;  ///< each stage of an order that was reached
   std::vector<executive::Observation> values;       ///< that the ground has set
-  /// What the plan has made of timelines that nobody observes; without a value: nothing is known of it any more.
+  /// What the plan has made of timelines that nobody observes, and whom the executive does not trust
+  /// (`trust.SUBSYSTEM`); without a value: nothing is known of it any more.
   std::vector<executive::Observation> concluded;
   std::optional<temporal::Time> wake;  ///< step() is to be called then, if nothing comes before
 };

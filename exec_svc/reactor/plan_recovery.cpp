@@ -1,6 +1,7 @@
 #include "exec_svc/reactor/plan_recovery.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 namespace roci::exec::reactor {
@@ -49,8 +50,10 @@ void PlanRecovery::note_successes() {
   for (const StepStatus& step : state_->out.steps) {
     if (step.state != temporal::ActivityState::succeeded) continue;
     breaks_.succeeded(std::exchange(last_break_, {}));
-    if (const auto* activity = plan_->executive().activity(step.activity))
+    if (const auto* activity = plan_->executive().activity(step.activity)) {
       backoff_.succeeded(activity->subsystem);
+      note_trust(activity->subsystem, false);
+    }
   }
 }
 
@@ -105,6 +108,7 @@ void PlanRecovery::count_failure(Time now, const Outcome& outcome) {
   if (activity == nullptr || activity->subsystem.empty()) return;
   const FailureBackoff::Count count = backoff_.failed(activity->subsystem);
   if (count.used_up) {
+    note_trust(activity->subsystem, true);
     state_->give_up(goals_behind(plan_->executive().plan(), outcome.activity, state_->goals),
                     activity->subsystem + " failed " + std::to_string(count.in_a_row) +
                         " times in a row, last as " + outcome.activity + " " + outcome.reason);
@@ -122,12 +126,20 @@ void PlanRecovery::count_break(Time now, const std::string& activity, const std:
   last_break_ = place;
   const FailureBackoff::Count count = breaks_.failed(place);
   if (count.used_up) {
+    if (!broken->subsystem.empty()) note_trust(broken->subsystem, true);
     state_->give_up(goals_behind(plan_->executive().plan(), activity, state_->goals),
                     std::to_string(count.in_a_row) + " plans in a row broke at " + broken->name +
                         ", with nothing done in between");
   } else if (count.pause > temporal::Duration{0}) {
     call_->wait_until(now + count.pause);
   }
+}
+
+void PlanRecovery::note_trust(const std::string& subsystem, bool lost) {
+  const std::string timeline = "trust." + subsystem;
+  const auto value = lost ? std::optional<temporal::Value>(temporal::state("lost")) : std::nullopt;
+  if (state_->beliefs.conclude(timeline, value))
+    state_->out.concluded.push_back({timeline, value.value_or(temporal::Value{})});
 }
 
 bool PlanRecovery::may_replan(Time now) {

@@ -44,6 +44,8 @@ class PlanRecovery {
   /// in the end its goals are given up.
   void count_break(temporal::Time now, const std::string& activity, const std::string& kind);
   void count_failure(temporal::Time now, const executive::Outcome& outcome);
+  /// Says so on the timeline `trust.SUBSYSTEM`: what a plan may do for other goals without this one is up to its model.
+  void note_trust(const std::string& subsystem, bool lost);
 
   MissionState* state_;
   RunningPlan* plan_;

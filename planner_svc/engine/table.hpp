@@ -19,6 +19,13 @@ using MakeAnswering = std::function<std::unique_ptr<AnsweringEngine>()>;
 /// Throws std::exception with file, line and remedy for a model that the engine does not take.
 using MakeStepped = std::function<std::unique_ptr<SteppedEngine>(const Setup&)>;
 
+/// Says where a model asks a service for numbers.
+struct AskedFunction {
+  std::string module;
+  std::string function;
+  std::string place;  ///< "file:line:column"
+};
+
 struct TableEntry {
   std::variant<MakeAnswering, MakeStepped> make;
   std::function<std::unique_ptr<Checker>()> make_checker;
@@ -26,6 +33,11 @@ struct TableEntry {
   std::function<std::unique_ptr<DecisionResolver>(const Setup&)> make_resolver{};
   /// The ways to search that a mission may name for it (Request::resolvers); none: it has one alone.
   std::vector<std::string> resolvers{};
+  /// Of an engine with models of its own: the functions that one asks for, in its order. The model is the text that a
+  /// mission has of its file, the name that of the file where the text names none. One that cannot be read asks for
+  /// none.
+  std::function<std::vector<AskedFunction>(const std::string& model, const std::string& name)>
+      asked_functions{};
 };
 
 /// By name, as mission.yaml and PlanRequest give it.

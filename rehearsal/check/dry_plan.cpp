@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <filesystem>
 #include <optional>
 #include <utility>
 #include <variant>
@@ -244,6 +245,39 @@ std::string why_no_functions(const CheckedMission& mission, const MissionModel& 
   return own ? "a program of the mission's own answers: " + answer.reason : "";
 }
 
+// A function of a module that is asked for, or a module alone, with the places of both names.
+struct AskedName {
+  std::string module, function;
+  mission::Finding module_at, function_at;
+};
+
+std::vector<AskedName> asked_by_domain(const pddl::Domain& domain) {
+  const auto at = [&](const pddl::SourceLocation& where) {
+    return mission::Finding{domain.file, where.line, where.column, mission::Severity::error, "", ""};
+  };
+  std::vector<AskedName> out;
+  for (const pddl::Module& module : domain.modules) {
+    out.push_back({module.name, "", at(module.where), at(module.where)});
+    for (const pddl::Signature& function : module.functions)
+      out.push_back({module.name, function.name, at(module.where), at(function.where)});
+  }
+  return out;
+}
+
+std::vector<AskedName> asked_by_model(const CheckedExecutive& executive) {
+  const auto engine = planner::engines().find(executive.model.planner.engine);
+  const auto model = executive.file.find("model");
+  if (engine == planner::engines().end() || !engine->second.asked_functions || !model) return {};
+  const std::filesystem::path file = model->resolve(model->text());
+  std::vector<AskedName> out;
+  for (const auto& one : engine->second.asked_functions(executive.model.model_text, file.filename())) {
+    mission::Finding at = mission::finding_of(one.place + ": ");
+    at.file = (file.parent_path() / at.file).string();
+    out.push_back({one.module, one.function, at, at});
+  }
+  return out;
+}
+
 }  // namespace
 
 DryPlans dry_plan(const CheckedMission& mission, const CheckedExecutive& executive, AskedOwners& owners,
@@ -286,29 +320,28 @@ DryPlans dry_plan(const CheckedMission& mission, const CheckedExecutive& executi
 
 void check_functions(const CheckedMission& mission, const CheckedExecutive& executive, AskedOwners& owners,
                      mission::Findings& findings) {
-  if (!executive.model.domain) return;
-  const pddl::Domain& domain = *executive.model.domain;
+  const std::vector<AskedName> asked =
+      executive.model.domain ? asked_by_domain(*executive.model.domain) : asked_by_model(executive);
   std::vector<std::string> modules;
-  for (const pddl::Module& one : domain.modules) modules.push_back(one.name);
+  for (const AskedName& one : asked) modules.push_back(one.module);
   const auto& offered = owners.offered(modules);
   std::vector<std::string> known;
   for (const auto& [name, functions] : offered) known.push_back(name);
-  const auto add = [&](const pddl::SourceLocation& where, const std::string& what, const std::string& word,
+  const auto add = [&](mission::Finding finding, const std::string& what, const std::string& word,
                        const std::vector<std::string>& words) {
     if (!mission.closed && words::nearest_word(word, words).empty()) return;
-    findings.add(
-        {domain.file, where.line, where.column, mission::Severity::error, what, instead_of(word, words)});
+    finding.what = what;
+    finding.remedy = instead_of(word, words);
+    findings.add(std::move(finding));
   };
-  for (const pddl::Module& one : domain.modules) {
-    const auto functions = offered.find(one.name);
+  for (const AskedName& one : asked) {
+    const auto functions = offered.find(one.module);
     if (functions == offered.end()) {
-      add(one.where, "no service of the mission offers module '" + one.name + "'", one.name, known);
-      continue;
+      add(one.module_at, "no service of the mission offers module '" + one.module + "'", one.module, known);
+    } else if (!one.function.empty() && !contains(functions->second, one.function)) {
+      add(one.function_at, "module '" + one.module + "' offers no function '" + one.function + "'",
+          one.function, functions->second);
     }
-    for (const pddl::Signature& function : one.functions)
-      if (!contains(functions->second, function.name))
-        add(function.where, "module '" + one.name + "' offers no function '" + function.name + "'",
-            function.name, functions->second);
   }
 }
 

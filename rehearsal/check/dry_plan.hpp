@@ -48,8 +48,9 @@ struct DryPlans {
 DryPlans dry_plan(const CheckedMission& mission, const CheckedExecutive& executive, AskedOwners& owners,
                   mission::Findings& findings);
 
-/// Finds modules and external functions of the domain that no service of the mission offers. Where programs of the
-/// mission's own could offer them, only names that are nearly an offered one are findings.
+/// Finds modules and external functions of the domain, or of a model in the engine's own language, that no service of
+/// the mission offers. Where programs of the mission's own could offer them, only names that are nearly an offered one
+/// are findings.
 void check_functions(const CheckedMission& mission, const CheckedExecutive& executive, AskedOwners& owners,
                      mission::Findings& findings);
 

@@ -142,6 +142,23 @@ TEST_F(FasterTrial, AScoutThatFindsNoWayBackIsLeftBehind) {
   EXPECT_THAT(deeds("downlink"), ::testing::ElementsAre("primary traverse_done"));
 }
 
+// Its own wheels end the primary's drive, the stand before it is taken, and the scout is too near to be seen: the scout
+// stands behind it.
+TEST_F(FasterTrial, AScoutTooNearToBeSeenStandsBehindThePrimary) {
+  const Flight flight = flown("hidden", 1023);
+  EXPECT_EQ(flight.summary["goals"]["achieved"], 2);
+  EXPECT_THAT(trace(), HasSubstr("primary.sight.n6 none"));
+  EXPECT_THAT(trace(), HasSubstr("StandBehindPrimary"));
+  EXPECT_THAT(deeds("downlink"), ::testing::ElementsAre("primary traverse_done"));
+}
+
+// What mends an error fails for good: it takes the traverse along, and the last communication goes out without it.
+TEST_F(FasterTrial, AMendThatAlwaysFailsDoesNotTakeTheLastCommunicationAlong) {
+  flown("marker_lost");
+  EXPECT_THAT(trace(), HasSubstr("not_seen_all_the_same"));
+  EXPECT_THAT(deeds("downlink"), ::testing::ElementsAre("primary no_arrival"));
+}
+
 // The scout in a hazard and the primary blocked at once; and no primary is dug in.
 TEST_F(FasterTrial, APrimaryThatIsBlockedWhileTheScoutIsInAHazardGoesOn) {
   const Flight flight = flown("hidden", 193);
@@ -175,10 +192,11 @@ TEST_F(FasterTrial, WithoutAPathTheGroundIsTold) {
 }
 
 constexpr const char* kScenarios[] = {
-    "nominal",           "trial",           "trial_stopped",   "trial_relaunched", "fixed_times",
-    "marker_not_seen",   "scout_no_path",   "primary_blocked", "scout_lost",       "no_path",
-    "goal_change",       "repair_overrun",  "radio_loss",      "radio_cut",        "opportunity",
-    "opportunity_alone", "scout_lost_early"};
+    "nominal",          "trial",           "trial_stopped", "trial_relaunched",
+    "fixed_times",      "marker_not_seen", "scout_no_path", "primary_blocked",
+    "scout_lost",       "no_path",         "goal_change",   "repair_overrun",
+    "radio_loss",       "radio_cut",       "opportunity",   "opportunity_alone",
+    "scout_lost_early", "marker_lost"};
 #ifdef ROCI_ALL_TRANSPORTS
 constexpr const char* kTransports[] = {"inproc", "fastdds", "cyclonedds", "mixed"};
 #else

@@ -97,6 +97,19 @@ TEST_P(Relay, AWindowThatStaysClosedIsWaitedForAndTheNextOneIsPlannedWith) {
   EXPECT_THAT(sent(), ElementsAre(testing::Pair(2000, "weather")));
 }
 
+// The plan would begin half a second after the window has closed: what was seen when it was asked for does not count.
+TEST_P(Relay, AWindowThatClosesBeforeThePlanBeginsIsNotCountedOn) {
+  expect_as_listed("closing");
+  EXPECT_THAT(sent(), ElementsAre(testing::Pair(600, "log")));
+}
+
+TEST_P(Relay, AWindowThatOpensBeforeItIsPredictedIsUsedAndMayCloseTooSoon) {
+  expect_as_listed("early");
+  const auto messages = sent();
+  ASSERT_FALSE(messages.empty());
+  EXPECT_THAT(messages.back(), testing::Pair(600, "weather"));
+}
+
 TEST_P(Relay, WhereNoWindowIsLeftTheGoalFallsAtOnceWithTheReason) {
   expect_as_listed("too_late");
   EXPECT_THAT(sent(), ElementsAre(testing::Pair(600, "log")));

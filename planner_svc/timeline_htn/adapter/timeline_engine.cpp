@@ -129,4 +129,14 @@ Answer TimelineEngine::answer(const Request& request, const Limits& limits, Func
   return out;
 }
 
+std::vector<engine::AskedFunction> asked_functions(const std::string& model, const std::string& name) {
+  std::vector<engine::AskedFunction> out;
+  mission::Findings findings;
+  const auto read = reading::parse_model({{name, model}}, findings, reading::Problem::of_a_request);
+  if (!read) return out;
+  for (const model::NumberTable& table : read->numbers)
+    if (table.asked) out.push_back({table.asked->module, table.asked->function, table.asked->place});
+  return out;
+}
+
 }  // namespace roci::planner::timeline_htn::adapter

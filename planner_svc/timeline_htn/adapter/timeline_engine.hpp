@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <vector>
 
 #include "planner_svc/engine/answering_engine.hpp"
+#include "planner_svc/engine/table.hpp"
 #include "planner_svc/timeline_htn/search/resolvers.hpp"
 
 namespace roci::planner::timeline_htn::adapter {
@@ -27,5 +29,8 @@ class TimelineEngine final : public engine::AnsweringEngine {
  private:
   Settings settings_;
 };
+
+/// Returns whom a model asks for its tables (engine::TableEntry::asked_functions).
+std::vector<engine::AskedFunction> asked_functions(const std::string& model, const std::string& name);
 
 }  // namespace roci::planner::timeline_htn::adapter

@@ -334,13 +334,13 @@ bool PartialPlan::step_between(StateId state, Index cause, Index parent, bool co
   return true;
 }
 
-// The state that the activity wants holds already, or the activity lies within one of its own timeline.
-bool PartialPlan::attach(Index activity) {
-  const Token& token = tokens_[current_[component(activity)]];
+// The state that the activity wants is there already, as this value.
+bool PartialPlan::attach(Index activity, Index index) {
+  const Token& token = tokens_[index];
   if (!constrain(token.start, activities_[activity].start, Duration{0}) ||
       !constrain(activities_[activity].end, token.end, Duration{0}))
     return false;
-  set(Field::token, activity, current_[component(activity)]);
+  set(Field::token, activity, index);
   place(activity);
   finish(activity);
   return true;
@@ -355,7 +355,7 @@ bool PartialPlan::go_on(Index activity, StateId state) {
     return step_between(state, activity, wanted.parent, true);
   }
   if (ground_->at(state).kind == StateKind::resting)
-    return append(state, kNone, activity) != kNone && attach(activity);
+    return append(state, kNone, activity) != kNone && attach(activity, current_[component(activity)]);
   const Index token = append(state, activity, activity);
   if (token == kNone || !constrain(tokens_[token].start, wanted.start, Duration{0}, Duration{0}) ||
       !constrain(tokens_[token].end, wanted.end, Duration{0}, Duration{0}))
@@ -481,7 +481,7 @@ bool PartialPlan::take(const Step& step) {
 bool PartialPlan::apply(const Step& step) {
   switch (step.kind) {
     case StepKind::attach:
-      return attach(step.subject);
+      return attach(step.subject, step.first);
     case StepKind::append:
       return go_on(step.subject, step.first);
     case StepKind::decompose:

@@ -213,7 +213,7 @@ class PartialPlan {
   void open_up(Index activity);
   void place(Index activity);
   bool step_between(StateId state, Index cause, Index parent, bool complex_permitted);
-  bool attach(Index activity);
+  bool attach(Index activity, Index token);
   bool go_on(Index activity, StateId state);
   bool decompose(Index activity, Index behaviour, Index binding);
   bool conditions_hold(Index activity, const model::Behaviour& behaviour, const std::vector<Index>& objects);

@@ -152,7 +152,7 @@ void Successors::place(const PartialPlan& plan, Index index, std::vector<Step>& 
   const Index component = plan.component(index);
   if (plan.current_state(component) == activity.state &&
       ground_->at(activity.state).kind == StateKind::resting) {
-    out.push_back({StepKind::attach, index, 0, 0});
+    out.push_back({StepKind::attach, index, plan.current(component), 0});
     // One that is to end may do so before it is wanted, and come again.
     if (plan.tokens()[plan.current(component)].ended == 0) return;
   }
@@ -163,6 +163,23 @@ void Successors::place(const PartialPlan& plan, Index index, std::vector<Step>& 
   if (states.empty())
     obstacle_ = {Obstacle::Kind::no_path,      activity.goal, activity.state, kNone, kNone,
                  plan.current_state(component)};
+  attach_back(plan, index, out);
+}
+
+// What waited for others may be met by a default state that ended just as they did.
+void Successors::attach_back(const PartialPlan& plan, Index index, std::vector<Step>& out) {
+  const Activity& activity = plan.activities()[index];
+  if (ground_->at(activity.state).kind != StateKind::resting || plan.before(index).empty()) return;
+  Index token = plan.tokens()[plan.current(plan.component(index))].before;
+  for (int back = 0; back < kTokensLookedBack && token != kNone;
+       ++back, token = plan.tokens()[token].before) {
+    if (plan.tokens()[token].state != activity.state) continue;
+    if (detours_) {
+      out.push_back({StepKind::attach, index, token, 0});
+    } else {
+      left_out_ = true;
+    }
+  }
 }
 
 void Successors::urgent(const PartialPlan& plan, const Urgent& item, std::vector<Step>& out) {

@@ -56,6 +56,7 @@ class Successors {
   void conditions(const PartialPlan& plan, const Urgent& item, std::vector<Step>& out);
   std::vector<Index> still_to_come(const PartialPlan& plan, Index component, TimePoint point);
   void place(const PartialPlan& plan, Index activity, std::vector<Step>& out);
+  void attach_back(const PartialPlan& plan, Index activity, std::vector<Step>& out);
   void rest(const PartialPlan& plan, std::vector<Step>& out);
   std::vector<Index> candidates(const PartialPlan& plan);
   // Successors from which the goal can be reached, the nearest first.

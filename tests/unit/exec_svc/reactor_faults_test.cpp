@@ -258,6 +258,25 @@ TEST_F(ReactorTest, AComponentThatKeepsFailingGetsTimeThenItsGoalsGoAlone) {
   EXPECT_EQ(calls[8] - calls[7], origin_and_image);
 }
 
+// An engine may plan for the other goals without it; what it does then makes it trusted again.
+TEST_F(ReactorTest, AComponentWhoseGoalsWereGivenUpIsNotTrustedUntilItSucceeds) {
+  camera_works = false;
+  std::vector<bool> trusted;
+  planner = [&](const PlanRequest& call) {
+    trusted.push_back(!reactor.concluded().contains("trust.camera"));
+    return image_every_goal(call);
+  };
+  run(1200, robot_and({photo("first"), photo("second", GoalClass::optional, 1)}));
+  ASSERT_EQ(reactor.goals().find({"ground", "first"})->state, GoalState::failed);
+  EXPECT_THAT(std::vector(trusted.begin(), trusted.begin() + 8), ::testing::Each(true));
+  EXPECT_FALSE(trusted.back());
+  EXPECT_EQ(temporal::to_text(reactor.concluded().at("trust.camera")), "lost");
+  camera_works = true;
+  run(2000, {});
+  EXPECT_EQ(reactor.goals().find({"ground", "second"})->state, GoalState::achieved);
+  EXPECT_FALSE(reactor.concluded().contains("trust.camera"));
+}
+
 TEST_F(ReactorTest, ACommandThatItsOwnerDoesNotKnowCostsItsGoalAtOnceAndNoOther) {
   const Planner all = planner;
   planner = [&, all](const PlanRequest& call) {

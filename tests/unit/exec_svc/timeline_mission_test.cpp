@@ -109,6 +109,26 @@ TEST(TimelineMission, ProblemsHoldStatePredictionsGoalsAndObjects) {
   EXPECT_EQ(problem.objects[1].properties[0].value, "2.000000");
 }
 
+// What is seen counts at the origin, but for a change that is predicted before it.
+TEST(TimelineMission, AWindowThatClosesBeforeTheOriginIsClosedThere) {
+  TimelineMissionFile file;
+  const MissionModel mission = file.read();
+  beliefs::Beliefs beliefs(mission);
+  beliefs.observe("comm.window", true);
+  const goals::GoalSet goals(mission);
+  const auto open_at = [&](double now, double origin) {
+    return write_problem(mission, beliefs, goals, "mine-1", seconds(now), seconds(origin),
+                         problem::Reserves::kept, {})
+        .state.at("comm.window");
+  };
+  EXPECT_EQ(open_at(190, 199), Value(true));
+  EXPECT_EQ(open_at(190, 200), Value(false)) << "it is open until then";
+  EXPECT_EQ(open_at(190, 299), Value(false));
+  EXPECT_EQ(open_at(190, 300), Value(true)) << "the next one opens";
+  EXPECT_EQ(open_at(90, 95), Value(true)) << "before it was predicted to open";
+  EXPECT_EQ(open_at(210, 220), Value(true)) << "it should have closed, and is seen open";
+}
+
 TEST(TimelineMission, ATimelineOfAnObjectNeedsTheRobotThatItNames) {
   TimelineMissionFile file;
   const mission::ExecutiveRole of_all{"", false, {"mole", "vole"}, true};

@@ -4,6 +4,7 @@
 namespace roci::rehearsal::check {
 namespace {
 
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
@@ -201,6 +202,32 @@ TEST(MissionCheck, AllFindingsAreListedInTheOrderOfTheFiles) {
   EXPECT_THAT(lines[3], HasSubstr("1900000"));
   EXPECT_THAT(lines[4], HasSubstr("'goal.droped'"));
   EXPECT_THAT(report.plans.planned, IsEmpty()) << "nothing is planned while something else is wrong";
+}
+
+// Numbers of a model of timelines that services give (docs/timeline-format.md).
+TEST(MissionCheck, AModelOfTimelinesMayAskOnlyForWhatIsOffered) {
+  const auto found = [](const std::string& asked, bool with_a_path_planner) {
+    const CopiedMission copy(ROCI_SOURCE_DIR "/tests/missions/porter");
+    const int line = copy.edit("porter.yaml", "numbers:\n",
+                               "numbers:\n  drive_s: {arguments: [place, place], asked: " + asked + "}\n");
+    if (with_a_path_planner)
+      copy.edit(kMission, "model: porter.yaml",
+                "  - {name: pathplan_svc, robot: porter}\nmodel: porter.yaml\nsite: " ROCI_SOURCE_DIR
+                "/missions/planetary/site/site.yaml");
+    const CheckReport report = check_mission(copy.folder());
+    const std::string place = (copy.folder() / "porter.yaml").string() + ":" + std::to_string(line + 1) + ":";
+    for (const mission::Finding& one : report.findings.all())
+      EXPECT_THAT(one.text(), ::testing::StartsWith(place));
+    return printed(report);
+  };
+  EXPECT_THAT(found("{module: pathplan, function: traverse_time}", false),
+              ElementsAre(HasSubstr("no service of the mission offers module 'pathplan'; there is none")));
+  EXPECT_THAT(found("{module: pathpaln, function: traverse_time}", true),
+              ElementsAre(HasSubstr("offers module 'pathpaln'; did you mean 'pathplan'?")));
+  EXPECT_THAT(found("{module: pathplan, function: traverse_tmie}", true),
+              ElementsAre(HasSubstr("'pathplan' offers no function 'traverse_tmie'; did you mean "
+                                    "'traverse_time'?")));
+  EXPECT_THAT(found("{module: pathplan, function: traverse_time}", true), IsEmpty());
 }
 
 // What the mission's files hold for other services is read by these services themselves.

@@ -177,6 +177,29 @@ TEST(FasterModel, WhateverErrorsMeetThereIsAPlan) {
           }
 }
 
+// A goal was given up since what mends an error failed again and again: the goals that are left are planned without it.
+TEST(FasterModel, WhatMendsNothingIsNotTriedForTheGoalsThatAreLeft) {
+  for (const auto& [problem, left] :
+       std::vector<std::pair<std::string, std::string>>{{"marker_not_seen", "not_seen_all_the_same"},
+                                                        {"hazard_detected", "hazard_all_the_same"},
+                                                        {"primary_blocked", "blocked_all_the_same"},
+                                                        {"scout_no_path", "without_path_all_the_same"},
+                                                        {"goal_change", "new_goals_all_the_same"}}) {
+    for (const bool trusted : {true, false}) {
+      model::Model model = load("missions/faster/" + problem + ".yaml");
+      std::erase_if(model.problem->goals, [](const auto& goal) { return goal.id != "last_communication"; });
+      for (model::Goal& goal : model.problem->goals) goal.after.clear();
+      if (!trusted)
+        std::ranges::find(model.relations, "distrusted", &model::Relation::name)->rows = {
+            {object(model, "scout_locomotion")}};
+      const FlexiblePlan plan = plan_for(model);
+      EXPECT_THAT(faults(model, plan), IsEmpty()) << problem;
+      EXPECT_EQ(count(plan, left), trusted ? 0U : 1U) << problem;
+      EXPECT_EQ(count(plan, "antenna.downlinking("), 1U) << problem;
+    }
+  }
+}
+
 // It has found no way back to where the primary is, nor behind it: it is not called again, and the primary goes on.
 TEST(FasterModel, AScoutWithoutAWayBackIsLeftWhereItIs) {
   for (const auto& [problem, primary] : std::vector<std::pair<std::string, std::string>>{

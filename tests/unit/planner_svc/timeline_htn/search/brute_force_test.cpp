@@ -71,6 +71,14 @@ TEST(TimelineSearchAgainstBruteForce, PlansWithWhatIsPredicted) {
   EXPECT_LT(tally.undecided, 40);
 }
 
+// One goal waits for another, which ends just as the default state does that the first one wants: that one is met by a
+// state which is over.
+TEST(TimelineSearchAgainstBruteForce, AGoalMayBeMetByADefaultStateThatEndsAsWhatItWaitsForDoes) {
+  Tally tally;
+  compare(1480, RandomProblem::with_windows(1480), tally);
+  EXPECT_EQ(tally.solvable, 1);
+}
+
 // A default state may be brought about before the window of its goal opens, and must last until then, or come again.
 TEST(TimelineSearchAgainstBruteForce, BringsAboutBeforeTheWindowWhatRestsInIt) {
   Tally tally;
