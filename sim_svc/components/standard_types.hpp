@@ -4,8 +4,7 @@
 
 namespace roci::sim::components {
 
-/// Returns the types that come with the simulator: arm, camera, drive, dynamic_arm, grapple, gripper, radio, task.
-/// README.md lists their settings.
+/// Returns all types of the table in README.md, each with the reader of its settings.
 setup::Registry standard_types();
 
 }  // namespace roci::sim::components
