@@ -1,3 +1,4 @@
+// The arm's process: what it answers and moves, over DDS.
 #pragma once
 #include <memory>
 

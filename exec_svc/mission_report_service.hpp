@@ -10,10 +10,10 @@
 
 namespace roci::exec {
 
-/// Without the trace's hash.
+/// Leaves out the trace's hash.
 v1::MissionStatus mission_status(const reactor::Reactor& reactor, const mission::MissionModel& mission);
 
-/// Of the executive alone; the launcher adds the rest.
+/// Holds what the executive alone knows; the launcher adds the rest.
 struct RunFigures {
   double slowest_call_s = 0;
   double planner_peak_mb = 0;

@@ -1,3 +1,4 @@
+// Time and energy of driving, by slope, friction and slip.
 #pragma once
 
 #include <algorithm>

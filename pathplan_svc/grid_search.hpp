@@ -1,3 +1,4 @@
+// Searches over the cells of the costmap: what hangs together, and the fastest drives from one cell to all others.
 #pragma once
 #include <cstdint>
 #include <vector>

@@ -76,7 +76,7 @@ MapExchange::MapExchange(services::Node& node, const MapSettings& settings, cons
     known_maps_ = services::advertise(node, topics::known_map);
     node.after(temporal::Duration{0}, [this] { show(); });
   }
-  if (settings_.telling == Telling::never) return;
+  if (settings_.sharing == MapSharing::never) return;
   patches_ = services::advertise(node, topics::map_patch);
   commands_.emplace(node, static_cast<owner::Driver&>(*this));
 }
@@ -94,7 +94,7 @@ void MapExchange::hear(const v1::TerrainFinding& finding) {
   if (!intake.changed) return;
   host_.changed();
   show();
-  if (settings_.telling == Telling::at_once) tell({});
+  if (settings_.sharing == MapSharing::at_once) tell({});
 }
 
 void MapExchange::hear(const v1::MapPatch& patch) {

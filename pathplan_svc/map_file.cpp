@@ -10,9 +10,9 @@ MapSettings read_map_settings(const mission::Entry& section) {
   const mission::Entry tell = section.at("tell");
   const std::string word = tell.text();
   if (word == "at_once") {
-    out.telling = Telling::at_once;
+    out.sharing = MapSharing::at_once;
   } else if (word == "on_request") {
-    out.telling = Telling::on_request;
+    out.sharing = MapSharing::on_request;
   } else {
     tell.fail("a map is told at_once or on_request, not '" + word + "'" +
               words::did_you_mean(word, {"at_once", "on_request"}));

@@ -8,7 +8,7 @@
 namespace roci::pathplan {
 
 /// Says when a robot's path planner tells the team what its map has beyond the loaded one.
-enum class Telling : std::uint8_t {
+enum class MapSharing : std::uint8_t {
   never,
   on_request,  ///< when its command `tell` is given
   at_once,     ///< moreover whenever its robot has found something
@@ -16,7 +16,7 @@ enum class Telling : std::uint8_t {
 
 /// A mission says this of a robot's own map.
 struct MapSettings {
-  Telling telling = Telling::never;
+  MapSharing sharing = MapSharing::never;
   std::string subsystem = "map";  ///< under which the path planner takes commands
 };
 

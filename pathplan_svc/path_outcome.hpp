@@ -1,3 +1,4 @@
+// What became of a search for a path.
 #pragma once
 #include <cstdint>
 

@@ -62,7 +62,7 @@ class PathplanService : public services::Service {
   // Who is told a map and its version may have heard of an earlier life.
   static PlannerSettings settings_of(const MapSettings& map, std::uint32_t incarnation) {
     PlannerSettings out;
-    if (map.telling != Telling::never)
+    if (map.sharing != MapSharing::never)
       out.first_version = (std::max(incarnation, 1U) - 1) * kVersionsOfALife + 1;
     return out;
   }

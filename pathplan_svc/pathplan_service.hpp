@@ -1,3 +1,4 @@
+// The path planner's process: what it answers over DDS.
 #pragma once
 #include <memory>
 

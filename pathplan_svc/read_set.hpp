@@ -1,3 +1,4 @@
+// Which part of the map an answer stands on, so that a change elsewhere leaves it valid.
 #pragma once
 #include <algorithm>
 #include <array>

@@ -1,3 +1,4 @@
+// The rover of a mission file, as the path planner needs it.
 #pragma once
 #include <vector>
 

@@ -1,3 +1,4 @@
+// Straight pieces of a path over the costmap: are they free, and what do they cost.
 #pragma once
 #include <vector>
 

@@ -1,3 +1,4 @@
+// Paths with fewer corners.
 #pragma once
 #include "pathplan_svc/segment.hpp"
 

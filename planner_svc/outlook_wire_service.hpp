@@ -6,7 +6,7 @@
 
 namespace roci::planner {
 
-/// Without robot, header, version, time and names of model and plan, which are the host's to say. A sample holds what
+/// Leaves out robot, header, version, time and names of model and plan, which the host says. A sample holds what
 /// has room in kOutlookBytes; what has none is counted in `omitted`.
 v1::DownlinkSchedule to_wire(const engine::DownlinkSchedule&);
 v1::MissionOutlook to_wire(const engine::MissionOutlook&);

@@ -21,7 +21,7 @@ namespace roci::planner {
 /// first are taken, and none with a time that a plan cannot have. Throws services::wire::WireError.
 engine::Request from_wire(const v1::PlanRequest&);
 
-/// Without what only the machine knows: wall time and memory.
+/// Leaves out what only the machine knows: wall time and memory.
 v1::PlanReply to_wire(const engine::Answer&);
 v1::PlanReply cancelled_reply();
 
@@ -40,7 +40,7 @@ engine::Goal from_wire(const v1::Goal&);
 engine::Observation from_wire(const v1::Observation&);
 engine::DataProduct from_wire(const v1::DataProduct&);
 engine::StepStatus from_wire(const v1::StepStatus&);
-/// Of a completed command. Values that are no finite number, or have names of more than kNameBytes, are left out, and
+/// Reads a completed command. Values that are no finite number, or whose names exceed kNameBytes, are left out, and
 /// those after the first kResultValues.
 engine::CommandResult from_wire(const v1::CommandAck&);
 engine::Receipt from_wire(const v1::PlanReceipt&);

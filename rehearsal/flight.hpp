@@ -10,7 +10,7 @@
 
 namespace roci::rehearsal {
 
-/// In the run folder of each flight: a line of JSON for each event of any service, with its mission time,
+/// Has, in the run folder of each flight, a line of JSON for each event of any service, with its mission time,
 /// its sender, code and text.
 inline constexpr char kEventsFile[] = "events.jsonl";
 
@@ -30,8 +30,8 @@ std::vector<mission::ServiceEntry> crew_of(const std::filesystem::path& mission)
 services::node::NodeOptions node_options(const std::filesystem::path& mission, const mission::ServiceEntry&,
                                          double pace);
 
-/// Of a linked program, of one of `more`, which a mission names by a path, or of the file beside a program of somebody
-/// else (loaded.hpp). Throws std::invalid_argument, with the remedy, where there is none.
+/// Finds that of a linked program, of one of `more`, which a mission names by a path, or of the file beside a program
+/// of somebody else (loaded.hpp). Throws std::invalid_argument, with the remedy, where there is none.
 services::MakeService* make_of(const mission::ServiceEntry&, const std::vector<Program>& more = {});
 
 struct FlightOptions {

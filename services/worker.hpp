@@ -1,3 +1,4 @@
+// Long computations of a service, beside its event loop.
 #pragma once
 #include <utility>
 

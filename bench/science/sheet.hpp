@@ -1,3 +1,4 @@
+// A contact sheet of the images that the detector was measured on.
 #pragma once
 #include <string>
 

@@ -1,3 +1,4 @@
+// Elevations from a GeoTIFF, with GDAL where the build has it.
 #pragma once
 #include <filesystem>
 #include <vector>

@@ -1,3 +1,4 @@
+// Holes of an elevation layer, filled from their neighbours.
 #pragma once
 #include <cstddef>
 #include <vector>

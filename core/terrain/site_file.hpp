@@ -1,3 +1,4 @@
+// A site from its files: map_server YAML with images, or a GeoTIFF.
 #pragma once
 #include <filesystem>
 

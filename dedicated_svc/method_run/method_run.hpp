@@ -41,7 +41,7 @@ struct Taken {
 struct End {
   std::string error{};  ///< empty: it is carried out. The failed call's, or wrong-value (R145)
   std::string reason{};
-  /// Of success, what `results` says; else what the failed call brought.
+  /// Holds what `results` says where it succeeded, else what the failed call brought.
   std::map<std::string, temporal::Value> values{};
   std::optional<double> energy_j{};  ///< of all calls, repairs included; empty: some call told none
   std::string call{};                ///< whose error it is
@@ -68,7 +68,7 @@ class MethodRun {
   /// Begins, and takes what an earlier run of this command has taken: returns the step that that one came to. Neither
   /// call nor end, if it would have ended before: it was another method.
   Step begin_after(const std::vector<Taken>& taken);
-  /// Of what is observed, the numbers that this method's repairs need.
+  /// Returns the numbers of what is observed that this method's repairs need.
   Observations needed(const Observations& observed) const;
   /// Why a repair is under way; empty: none is.
   std::string repairing() const { return go_on_ ? error_.reason : std::string{}; }

@@ -113,12 +113,12 @@ struct Method {
   std::string command;
   std::vector<std::string> arguments{};  ///< that the command must have
   std::vector<Call> calls{};
-  /// By error, or by "call.error" where it is for that call alone; the latter goes first.
+  /// They go by error, or by "call.error" for that call alone; the latter goes first.
   std::map<std::string, Repair> repairs{};
   std::map<std::string, std::string> results{};  ///< what goes up with its success: "call.value" by name
   Shown during{};                                ///< else the command's name and arguments
   Shown then{};                                  ///< else the executive's state of rest
-  /// By "call.error" where it is for that call alone, by error, "*": any other;
+  /// They go by "call.error" for that call alone, by error, or by "*" for any other;
   /// the first of these that is there counts.
   std::map<std::string, Shown> failed{};
   /// What it says of other timelines in the end, by outcome: "done", or an error as above. Timelines are templates.

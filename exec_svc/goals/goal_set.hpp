@@ -51,7 +51,7 @@ struct GoalRequest {
 /// Whoever says it, and however often.
 bool same_request(const GoalRequest&, const GoalRequest&);
 
-/// By somebody who reads the answer; the services of a run, which pass on what its scenario says, do not.
+/// Returns whether somebody asks who reads the answer; services, which pass on what a scenario says, do not.
 bool from_console(const GoalRequest&);
 
 /// What the templates of the goal's kind are filled with: its arguments, its id and its robot.

@@ -7,7 +7,7 @@
 
 namespace roci::exec::journal {
 
-/// Of the newest commit of a journal. Only the leader of an epoch makes commits of that epoch, each from the
+/// Names the newest commit of a journal. Only the leader of an epoch makes commits of that epoch, each from the
 /// one before: two journals with the same position are the same journal. {0, 0}: an empty one.
 struct Position {
   std::uint64_t epoch = 0;
@@ -15,7 +15,7 @@ struct Position {
   auto operator<=>(const Position&) const = default;
 };
 
-/// Of a journal that no other has as a part.
+/// Stands for a journal that no other has as a part.
 inline constexpr Position kForkedHistory{0, 1};
 
 /// What one commit changed.

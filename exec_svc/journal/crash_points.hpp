@@ -11,7 +11,7 @@
 
 namespace roci::exec::journal {
 
-/// In the order of one turn.
+/// They stand in the order of one turn.
 inline constexpr std::array<std::string_view, 11> kCrashPoints{
     "after-goal",       ///< a goal came in
     "after-hand-over",  ///< the other one of a pair handed over a goal (exec_svc/standby), nothing is decided

@@ -17,7 +17,7 @@ struct DecisionLine {
   bool operator==(const DecisionLine&) const = default;
 };
 
-/// In the order in which they are journaled and sent. Lines of kind "trace" begin with the mission time in
+/// Returns them as they are journaled and sent. Lines of kind "trace" begin with the mission time in
 /// microseconds.
 std::vector<DecisionLine> decisions(temporal::Time now, const reactor::ReactorOutputs& out);
 

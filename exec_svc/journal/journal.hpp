@@ -50,7 +50,7 @@ enum class Durability {
   power,    ///< survives the loss of power
 };
 
-/// In the run folder; ServiceList::file_name() tells the journals of several executives apart.
+/// It lies in the run folder; ServiceList::file_name() tells the journals of several executives apart.
 inline constexpr char kJournalFile[] = "journal.sqlite";
 
 /// The name of the journal's text that says what it has lost, for the ground; empty: nothing, or the ground knows.
@@ -81,7 +81,7 @@ class Journal {
   /// Rises by one with each call: the epoch of this start of the executive.
   std::uint64_t next_epoch();
 
-  /// For copies. From now on every commit that changes something is the next one of this epoch, and is kept
+  /// Serves copies: from now on every commit that changes something is the next one of this epoch, and is kept
   /// for take_batches(): in order, those since the last call.
   void begin_epoch(std::uint64_t epoch);
   std::vector<Batch> take_batches();
@@ -116,7 +116,7 @@ class Journal {
   std::int64_t append_bytes(temporal::Time time, std::string_view kind, std::string_view bytes);
 
   using Visit = std::function<void(temporal::Time, std::string_view kind, std::string_view text)>;
-  /// In order of writing; the second: from the record of this number on.
+  /// They go in order of writing; the second begins with the record of this number.
   void for_each(const Visit& visit) const { for_each_from(0, visit); }
   void for_each_from(std::int64_t number, const Visit& visit) const;
 

@@ -32,7 +32,7 @@ class Replay {
   const std::optional<Divergence>& divergence() const { return divergence_; }
   std::size_t turns() const { return turns_; }
   temporal::Time now() const { return now_; }
-  /// Of the newest turn.
+  /// Returns those of the newest turn.
   const reactor::ReactorOutputs& outputs() const { return outputs_; }
   /// The decision that equalled the newest journaled one.
   const DecisionLine& matched() const { return lines_.at(matched_ - 1); }

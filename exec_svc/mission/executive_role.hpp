@@ -13,7 +13,7 @@ struct ExecutiveRole {
   std::string robot;  ///< that it commands; empty: every robot of the mission
   /// Whether the mission has other executives beside this one (with its standby).
   bool one_of_several = false;
-  /// With several executives: the robots that one of them commands, by name.
+  /// Names the robots that one of several executives commands.
   std::vector<std::string> commanded;
   /// Whether this one answers goals that name no robot of any executive: the team's executive does, else the
   /// first of the list, so that they are answered once.

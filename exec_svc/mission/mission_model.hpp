@@ -88,7 +88,7 @@ struct GoalKind {
   std::string name;
   std::string help;
   std::map<std::string, ArgumentKind> arguments;
-  /// Of the arguments that are objects: their type in the domain.
+  /// Holds the type in the domain of the arguments that are objects.
   std::map<std::string, std::string> object_types;
   std::vector<ObjectModel> objects;
   std::vector<std::string> facts;

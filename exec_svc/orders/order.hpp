@@ -11,7 +11,7 @@
 
 namespace roci::exec::orders {
 
-/// In the order of OrderKind in idl/order.idl, and one more: a command goes over the wire as an
+/// Has the order of OrderKind in idl/order.idl, and one more: a command goes over the wire as an
 /// approval with its content.
 enum class OrderKind {
   hold,       ///< nothing new starts; with a target: this activity does not
@@ -42,7 +42,7 @@ struct Order {
   std::uint32_t checksum = 0;  ///< CRC-32 of the upload
 };
 
-/// In the order of OrderStage in idl/order.idl.
+/// Has the order of OrderStage in idl/order.idl.
 enum class OrderStage { received, accepted, refused, applied };
 /// "received", …
 const char* to_string(OrderStage stage);

@@ -28,7 +28,7 @@ class ClosedWorld {
   bool fire(const pddl::DerivedPredicate& rule);
   temporal::Truth truth_of(const pddl::Condition& condition, const Binding& binding) const;
   temporal::Truth of_all(const std::vector<pddl::Condition>& parts, const Binding& binding) const;
-  /// Of the body under every choice of objects for the variables from `next` on.
+  /// Judges the body under every choice of objects for the variables from `next` on.
   temporal::Truth for_all(const std::vector<pddl::TypedName>& variables, std::size_t next,
                           const pddl::Condition& body, Binding& binding, bool negated) const;
 

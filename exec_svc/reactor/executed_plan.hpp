@@ -12,7 +12,7 @@
 
 namespace roci::exec::reactor {
 
-/// In the order of ExecutedOutcome in idl/plan.idl.
+/// Has the order of ExecutedOutcome in idl/plan.idl.
 enum class ExecutedOutcome {
   finished,   ///< every activity succeeded or was skipped
   broken,     ///< and nothing of it runs any more
@@ -31,7 +31,7 @@ struct ExecutedActivity {
   std::optional<temporal::Time> started, ended;
   std::uint32_t attempts = 0;  ///< commands that were sent for it
   std::string cause;           ///< why it is in this state, where that is not obvious
-  /// Of all its commands: energies are summed, of values of one name the newest counts.
+  /// Joins those of all its commands: energies are summed, of values of one name the newest counts.
   executive::CommandResults results;
   friend bool operator==(const ExecutedActivity&, const ExecutedActivity&) = default;
 };

@@ -24,7 +24,7 @@ class GroundOrders {
   /// Obeys the orders among the inputs, before the plan hears of the step. Values that the ground sets become
   /// observations among them, answers to decisions answers.
   void obey(temporal::Time now, ReactorInputs& inputs);
-  /// At the end of a step: says what has been applied by now.
+  /// Says at the end of a step what has been applied by now.
   void settle();
 
   const orders::OrderBook& book() const { return book_; }

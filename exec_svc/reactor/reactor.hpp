@@ -67,7 +67,7 @@ class Reactor {
   /// What plans have made of timelines that nobody observes.
   const std::map<std::string, temporal::Value>& concluded() const;
   orders::AutonomyLevel autonomy() const;
-  /// By order: nothing new starts.
+  /// Returns whether nothing new starts, by order.
   bool held() const;
   /// "achieved": every hard goal, and there was one (a console's goals that were rejected do not count:
   /// whoever sent them was told); "partial": some hard goal was not, robot safe; "failed": robot not safe;

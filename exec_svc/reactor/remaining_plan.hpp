@@ -23,7 +23,7 @@ struct PlannedAction {
 /// `plan`: as it came from the planner. No ids yet.
 std::vector<PlannedAction> planned_actions(const temporal::FlexiblePlan& plan);
 
-/// Without those that run, have done their work or were skipped; what no step tells of stays.
+/// Leaves out those that run, have done their work or were skipped; what no step tells of stays.
 std::vector<PlannedAction> remaining_actions(std::vector<PlannedAction> planned,
                                              const std::vector<executive::StepStatus>& steps);
 

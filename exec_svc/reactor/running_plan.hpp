@@ -89,7 +89,7 @@ class RunningPlan {
   const std::optional<ExecutedPlan>& last_executed() const { return last_executed_; }
   const executive::Executive& executive() const { return executive_; }
   executive::Outcome outcome() const { return executive_.outcome(); }
-  /// Of the plan that was loaded last, also in an earlier start of the executive; 0: none was.
+  /// Returns that of the plan that was loaded last, also in an earlier start of the executive; 0: none was.
   std::uint32_t version() const { return version_; }
   void restore_version(std::uint32_t version) { version_ = version; }
   /// The executive's epoch; 0: it was not told.

@@ -79,6 +79,19 @@ int list_goal_kinds(const Line& line) {
   return cli::kDone;
 }
 
+void add_connection_options(CLI::App& app, Line& line) {
+  app.add_option("--domain", line.connection.domain,
+                 "DDS domain of the mission (default: the one that runs here)");
+  app.add_option("--dds", line.connection.dds, "fastdds or cyclonedds");
+  app.add_option("--address", line.connection.address, "This host's address");
+  app.add_option("--peers", line.connection.peers, "Addresses of the hosts, separated by commas");
+  app.add_option("--network", line.connection.network, "Network file of this host");
+  app.add_flag(roci::services::process::kSecureFlag, line.connection.secure,
+               roci::services::process::kSecureHelp);
+  app.add_option("--executive", line.executive,
+                 "Whose mission and plan, where several fly (default: the first by name)");
+}
+
 CLI::App* add_verb(CLI::App& parent, Line& line, const char* name, const char* help,
                    int (*verb)(lib::Client&, const Line&)) {
   CLI::App* command = parent.add_subcommand(name, help);
@@ -241,46 +254,7 @@ void add_outlook_verbs(CLI::App& app, Line& line) {
   add("subway", Subject::subway, "The science subway map: sites, targets, outcomes, and which is next");
 }
 
-void tell_waiting() {
-  std::cerr << "roci: no mission runs on this machine yet; waiting for one (Ctrl-C ends, ./run starts one)\n";
-}
-
-// The program beside this one takes over; it knows the executive or the planner's networks, the ground tool does not.
-int become(const std::string& name, std::vector<std::string> arguments) {
-  const auto program = std::filesystem::read_symlink("/proc/self/exe").parent_path() / name;
-  arguments.insert(arguments.begin(), name);
-  std::vector<char*> words;
-  for (std::string& argument : arguments) words.push_back(argument.data());
-  words.push_back(nullptr);
-  execv(program.c_str(), words.data());
-  std::cerr << "roci: cannot start " << program.string() << "; install it beside roci\n";
-  return cli::kBadUsage;
-}
-
-}  // namespace
-
-int main(int argc, char** argv) {
-  if (argc > 1 && std::string(argv[1]) == "replay") return become("roci-replay", {argv + 2, argv + argc});
-  // The subcommand has the same name there.
-  if (argc > 1 && std::string(argv[1]) == "explain") return become("roci-network", {argv + 1, argv + argc});
-  Line line;
-  CLI::App app("Ground tool of Rocinante");
-  app.require_subcommand(1);
-  app.fallthrough();
-  app.add_option("--domain", line.connection.domain,
-                 "DDS domain of the mission (default: the one that runs here)");
-  app.add_option("--dds", line.connection.dds, "fastdds or cyclonedds");
-  app.add_option("--address", line.connection.address, "This host's address");
-  app.add_option("--peers", line.connection.peers, "Addresses of the hosts, separated by commas");
-  app.add_option("--network", line.connection.network, "Network file of this host");
-  app.add_flag(roci::services::process::kSecureFlag, line.connection.secure,
-               roci::services::process::kSecureHelp);
-  app.add_option("--executive", line.executive,
-                 "Whose mission and plan, where several fly (default: the first by name)");
-  add_goal_verbs(app, line);
-  add_order_verbs(app, line);
-  add_network_verbs(app, line);
-  add_outlook_verbs(app, line);
+void add_mission_verbs(CLI::App& app, Line& line) {
   add_verb(app, line, "status", "Mission, goals, services, newest values",
            [](lib::Client& client, const Line& l) { return cli::show_status(client, words_of(l), l.json); });
   add_verb(app, line, "plan", "The running plan and the state of each activity",
@@ -299,6 +273,9 @@ int main(int argc, char** argv) {
   timelines->add_option("names", line.timelines, "Every change of these alone, e.g. rover.nav rover.battery");
   timelines->add_option("--mission", line.mission,
                         "Mission folder or name, for the units (default: as it runs here)");
+}
+
+void add_ground_verbs(CLI::App& app, Line& line) {
   CLI::App* reach = add_verb(app, line, "reach", "Is there a way to a place, how long, how much energy",
                              [](lib::Client& client, const Line& l) {
                                cli::ReachArguments asked = l.reach;
@@ -326,6 +303,9 @@ int main(int argc, char** argv) {
                   "Run folder, as roci runs lists them (default: the run on this machine, if any)");
   map->callback(
       [&line] { line.own = [](const Line& l) { return cli::map::show_map(l.map, l.connection, l.json); }; });
+}
+
+void add_run_verbs(CLI::App& app, Line& line) {
   CLI::App* runs = add_verb(app, line, "runs", "The runs of this machine: when, what, result, size", nullptr);
   runs->add_flag("--prune", line.prunes, "Remove the folders of all but the newest runs");
   runs->add_option("--keep", line.kept, "With --prune: so many stay")->capture_default_str();
@@ -343,19 +323,13 @@ int main(int argc, char** argv) {
   watching->preparse_callback([&line](std::size_t) { line.waits = true; });
   events->add_option("--launcher", line.launcher, "Join the run of this roci-launch, by its process id");
   watching->add_option("--launcher", line.launcher, "Join the run of this roci-launch, by its process id");
-  app.add_subcommand("replay", "Repeat a run from its journal: roci replay JOURNAL (--help tells more)");
-  app.add_subcommand("explain",
-                     "Why a task of a network is not planned: roci explain NETWORK TASK (--help tells more)");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    const std::string verb =
-        cli::words_on_verb(app, {argv + 1, argv + argc},
-                           {"--domain", "--dds", "--address", "--peers", "--network", "--executive"});
-    if (error.get_exit_code() == 0 || verb.empty()) return app.exit(error) == 0 ? cli::kDone : cli::kBadUsage;
-    std::cerr << "roci: " << verb << "\n";
-    return cli::kBadUsage;
-  }
+}
+
+void tell_waiting() {
+  std::cerr << "roci: no mission runs on this machine yet; waiting for one (Ctrl-C ends, ./run starts one)\n";
+}
+
+int carry_out(Line& line) {
   try {
     if (line.own != nullptr) return line.own(line);
     if (line.launcher != 0 && !lib::wait_for_launcher(line.launcher)) return cli::kNoMission;
@@ -371,4 +345,50 @@ int main(int argc, char** argv) {
     std::cerr << "roci: " << error.what() << "\n";
     return cli::kNoMission;
   }
+}
+
+// The program beside this one takes over; it knows the executive or the planner's networks, the ground tool does not.
+int become(const std::string& name, std::vector<std::string> arguments) {
+  const auto program = std::filesystem::read_symlink("/proc/self/exe").parent_path() / name;
+  arguments.insert(arguments.begin(), name);
+  std::vector<char*> words;
+  for (std::string& argument : arguments) words.push_back(argument.data());
+  words.push_back(nullptr);
+  execv(program.c_str(), words.data());
+  std::cerr << "roci: cannot start " << program.string() << "; install it beside roci\n";
+  return cli::kBadUsage;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc > 1 && std::string(argv[1]) == "replay") return become("roci-replay", {argv + 2, argv + argc});
+  // The subcommand has the same name there.
+  if (argc > 1 && std::string(argv[1]) == "explain") return become("roci-network", {argv + 1, argv + argc});
+  Line line;
+  CLI::App app("Ground tool of Rocinante");
+  app.require_subcommand(1);
+  app.fallthrough();
+  add_connection_options(app, line);
+  add_goal_verbs(app, line);
+  add_order_verbs(app, line);
+  add_network_verbs(app, line);
+  add_outlook_verbs(app, line);
+  add_mission_verbs(app, line);
+  add_ground_verbs(app, line);
+  add_run_verbs(app, line);
+  app.add_subcommand("replay", "Repeat a run from its journal: roci replay JOURNAL (--help tells more)");
+  app.add_subcommand("explain",
+                     "Why a task of a network is not planned: roci explain NETWORK TASK (--help tells more)");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    const std::string verb =
+        cli::words_on_verb(app, {argv + 1, argv + argc},
+                           {"--domain", "--dds", "--address", "--peers", "--network", "--executive"});
+    if (error.get_exit_code() == 0 || verb.empty()) return app.exit(error) == 0 ? cli::kDone : cli::kBadUsage;
+    std::cerr << "roci: " << verb << "\n";
+    return cli::kBadUsage;
+  }
+  return carry_out(line);
 }

@@ -75,7 +75,7 @@ class Client {
   std::optional<v1::NetworkStatus> send_network_order(
       const v1::NetworkOrder& order, const std::function<void(const v1::NetworkStatus&)>& tell,
       std::chrono::milliseconds limit);
-  /// By planner, issuer and id the newest; without issuer and id which network is in force.
+  /// Has the newest by planner, issuer and id; without issuer and id which network is in force.
   const std::map<std::tuple<std::string, std::string, std::string>, v1::NetworkStatus>& networks() const {
     return networks_;
   }

@@ -74,7 +74,7 @@ class MissionView {
   const std::map<GoalKey, v1::GoalStatus>& goals() const { return goal_statuses_; }
   const v1::Goal* goal(const GoalKey& key) const;  ///< as it was asked for; null if not seen
   const v1::Plan* plan() const;                    ///< of the highest version; null before the first
-  /// Of the plans of the chosen executive that have ended, by version; the newest kExecuted are kept.
+  /// Has the plans of the chosen executive that have ended, by version; the newest kExecuted are kept.
   const std::map<std::uint32_t, v1::ExecutedPlan>& executed() const;
   const v1::StepStatus* step(const std::string& activity) const;
   const v1::TimelineValue* timeline(const std::string& name) const;
@@ -88,7 +88,7 @@ class MissionView {
   /// The version that the model of an owner of functions has now; 0 while it has offered nothing.
   std::uint64_t model_version(const std::string& owner) const;
   const std::map<std::string, v1::Heartbeat>& services() const { return heartbeats_; }
-  /// Of executive()'s pair the one that leads in the latest epoch; null without a pair.
+  /// Returns which of executive()'s pair leads in the latest epoch; null without a pair.
   const v1::LeaseMessage* leader() const;
   /// Names the executives of pairs that are heard and look for a leader in vain, while none leads; else "".
   std::string leaderless() const;

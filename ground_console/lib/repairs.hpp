@@ -21,7 +21,7 @@ struct Repair {
   std::string error;          ///< in the owner's words; the newest, if there were several in one command
   std::uint32_t times = 1;    ///< so often it has begun one within the command, as far as was heard
   std::int64_t since_us = 0;  ///< mission time of the first word that was heard of it
-  /// By which it must have ended; -1: no bound, or the command was not heard.
+  /// It must have ended by then; -1: no bound, or the command was not heard.
   std::int64_t latest_end_us = -1;
   State state = State::under_way;
   std::int64_t ended_us = -1;

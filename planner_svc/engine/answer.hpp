@@ -40,7 +40,7 @@ struct RecordFile {
 struct Answer {
   temporal::Verdict verdict = temporal::Verdict::crashed;
   std::string reason;  ///< in words, with file, line and column where the input is at fault
-  /// With unsolvable: the goals that are out of reach; none: all together are.
+  /// Names, with unsolvable, the goals that are out of reach; none: all together are.
   std::vector<BlockingGoal> blocking;
   std::optional<temporal::FlexiblePlan> plan;  ///< is there with solved alone
   Statistics statistics;

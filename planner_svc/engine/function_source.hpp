@@ -104,7 +104,7 @@ struct FunctionValue {
   double value = 0;  ///< with value: finite
   SharedProvenance provenance;
   std::string reason;  ///< the owner's own words, may be empty
-  /// Of the value: an owner that has no bounds gives exact values where these are asked for.
+  /// Is that of the value: an owner that has no bounds gives exact values where these are asked for.
   temporal::FunctionAccuracy accuracy = temporal::FunctionAccuracy::exact;
 
   bool is_exact() const { return accuracy == temporal::FunctionAccuracy::exact; }
@@ -127,7 +127,7 @@ class FunctionSource {
                                               const std::function<bool()>& cancelled) = 0;
 };
 
-/// For domains without modules: owns nothing.
+/// Owns nothing, for domains without modules.
 class NoFunctions final : public FunctionSource {
  public:
   std::vector<FunctionValue> evaluate(std::span<const FunctionCall> calls,

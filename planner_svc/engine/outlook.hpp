@@ -92,7 +92,7 @@ struct EnergyPoint {
   friend bool operator==(const EnergyPoint&, const EnergyPoint&) = default;
 };
 
-/// In the order of SignatureOutcome in idl/outlook.idl.
+/// Has the order of SignatureOutcome in idl/outlook.idl.
 enum class SignatureOutcome { unknown, negative, positive };
 
 struct SubwayTarget {

@@ -17,7 +17,7 @@
 
 namespace roci::planner::engine {
 
-/// In the order of GoalClass in idl/goal.idl.
+/// Has the order of GoalClass in idl/goal.idl.
 enum class GoalClass { hard, optional, opportunistic };
 
 /// A goal, known by its issuer and its id. In a call it comes as a condition, which the executive has made of
@@ -75,7 +75,7 @@ struct Request {
   std::string engine;  ///< its name in the table
   std::string robot;   ///< whose plan it is; empty: the only one
   temporal::Time origin{0};
-  /// Of the mission, in the engine's own language, with what it includes (mission::model_text).
+  /// Is the mission's, in the engine's own language, with what it includes (mission::model_text).
   std::string model;
   std::string problem_text;  ///< for engines that read text; else empty
   Timelines state;           ///< at the origin

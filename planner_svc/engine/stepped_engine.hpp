@@ -128,7 +128,7 @@ struct StepAccount {
 };
 
 struct StepOutput {
-  /// At most one change of the plan; it is checked before it is sent.
+  /// Holds at most one change of the plan; it is checked before it is sent.
   std::optional<temporal::PlanDelta> delta;
   /// Goals that cannot be planned as things stand; told to operators when they change.
   std::vector<BlockingGoal> blocking;

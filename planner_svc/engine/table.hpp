@@ -29,7 +29,7 @@ struct AskedFunction {
 struct TableEntry {
   std::variant<MakeAnswering, MakeStepped> make;
   std::function<std::unique_ptr<Checker>()> make_checker;
-  /// Of an engine whose plans leave decisions to itself; empty: they leave none. It may throw as MakeStepped does.
+  /// Serves an engine whose plans leave decisions to itself; empty: they leave none. It may throw as MakeStepped does.
   std::function<std::unique_ptr<DecisionResolver>(const Setup&)> make_resolver{};
   /// The ways to search that a mission may name for it (Request::resolvers); none: it has one alone.
   std::vector<std::string> resolvers{};
@@ -40,7 +40,7 @@ struct TableEntry {
       asked_functions{};
 };
 
-/// By name, as mission.yaml and PlanRequest give it.
+/// Goes by name, as mission.yaml and PlanRequest give it.
 using Table = std::map<std::string, TableEntry>;
 
 /// "a, b, c": the engines that answer calls; "none".

@@ -1,3 +1,4 @@
+// Goals raised on board, as observations come over DDS.
 #pragma once
 #include <memory>
 

@@ -9,7 +9,7 @@
 
 namespace roci::services::launch {
 
-/// In the run folder of the host.
+/// It lies in the run folder of the host.
 inline constexpr char kAnchorFile[] = "clock-anchor";
 
 /// Returns the anchor in the folder; makes it if there is none of this start of the host. Of several processes that

@@ -16,7 +16,7 @@ struct Options;
 /// Is the version of the file's schema (docs/formats.md).
 inline constexpr int kContinuationFormat = 1;
 
-/// In the run folder.
+/// It lies in the run folder.
 inline constexpr char kContinuationFile[] = "launch.json";
 
 /// Holds what a launcher takes over from the one before.

@@ -6,7 +6,7 @@
 
 namespace roci::services::launch {
 
-/// Of one service's log; with what is kept of the time before it has twice as much.
+/// Bounds one service's log in bytes; with what is kept of the time before it has twice as much.
 inline constexpr std::uintmax_t kLogLimit = 16 << 20;
 
 /// Moves what stands in the log to LOG.1, whose former content is gone, and begins the log anew, once it is larger than

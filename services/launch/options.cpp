@@ -47,6 +47,95 @@ std::vector<std::string> checked_services(const std::string& list, const Options
   return names.empty() ? options.list.names() : names;
 }
 
+// Is what the command line says in words of its own, before it is looked up.
+struct Words {
+  std::string mission;
+  std::string speed;
+  std::string clock = "simulated";
+  std::string services;
+  std::string roster;
+  process::ConnectionFlags connection;
+};
+
+void declare_options(CLI::App& app, Options& options, Words& words) {
+  app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+  app.add_option("mission", words.mission, "Mission folder, or the name of an installed mission")->required();
+  app.add_option("--scenario", options.scenario, "Scenario of the mission")->capture_default_str();
+  app.add_option("--dds", words.connection.dds, "fastdds, cyclonedds, mixed, or inproc (one process)");
+  app.add_option("--speed", words.speed,
+                 "Mission seconds per second, or max (default: 60 simulated, 1 live)");
+  app.add_option("--seed", options.seed, "Seed of everything random")
+      ->check(process::from_zero())
+      ->capture_default_str();
+  app.add_option("--clock", words.clock, "simulated or live")
+      ->check(CLI::IsMember({"simulated", "live"}))
+      ->capture_default_str();
+  app.add_flag("--headless", options.headless, "No progress display");
+  app.add_flag("--json", options.json, "The last line of standard output is the summary as JSON");
+  app.add_flag("--standby", options.standby,
+               "A second process follows each service that allows it (standby: true) and takes over from it");
+  app.add_option("--watchdog", options.watchdog_s,
+                 "Seconds of silence until a service counts as hung and is replaced; 0: never")
+      ->check(process::from_zero())
+      ->capture_default_str();
+  app.add_option("--services", words.services,
+                 "Services to start on this host, separated by commas (default: all)");
+  app.add_option("--become", options.become,
+                 "Turn into this one service of the mission's list, for a supervisor such as systemd; live, "
+                 "with --epoch");
+  app.add_option("--epoch", options.epoch_s,
+                 "With --become: mission time 0 in seconds since 1970, the same for all services");
+  app.add_option("--roster", words.roster, "Services of the whole run, on all hosts (default: all)");
+  app.add_option(
+      "--run", options.run,
+      "Identity of the run, the same on all of its hosts (or ROCI_RUN; default: one of its own, or the "
+      "mission's name where only some of its services start here)");
+  app.add_option("--domain", words.connection.domain, "DDS domain id (default: a free one)");
+  app.add_flag("--shared-domain", options.shared_domain,
+               "With --domain: start although another run is on it; neither obeys the other");
+  app.add_option("--address", words.connection.address,
+                 "The one interface address to use (default: loopback)");
+  app.add_option("--peers", words.connection.peers, "Hosts of the run, separated by commas");
+  app.add_option("--network", words.connection.network, "This host's network.yaml");
+  app.add_flag(process::kSecureFlag, words.connection.secure, process::kSecureHelp);
+  app.add_option("--run-folder", options.run_folder, "Folder for journal, logs and summary");
+  app.add_option("--resume",
+                 "Go on with the live run of this run folder, whose launcher has ended, as it was started; "
+                 "other options replace those of then")
+      ->type_name("RUN_FOLDER");
+}
+
+// Reads the command line; what it says wrongly ends the program.
+Words read_words(std::vector<std::string> arguments, Options& options) {
+  Words words;
+  CLI::App app("Flies a mission: starts every service, watches them, and reports the outcome", "roci-launch");
+  declare_options(app, options, words);
+  try {
+    app.parse(std::move(arguments));
+  } catch (const CLI::ParseError& error) {
+    std::ostringstream text;
+    const int code = app.exit(error, text, text);
+    throw process::CommandLineEnd(code == 0 ? 0 : 2, text.str());
+  }
+  return words;
+}
+
+void choose_services(Options& options, Words words) {
+  if (!options.become.empty()) {
+    if (!options.live)
+      throw std::invalid_argument("--become: only live services start one by one; add --clock live");
+    words.services = checked_services(options.become, options, false).front();
+  }
+  options.services = checked_services(words.services, options, true);
+  options.roster = checked_services(words.roster, options, false);
+  if (options.standby && words.services.empty()) {
+    for (const mission::ServiceEntry& entry : options.list.services)
+      if (entry.paired) options.services.push_back(standby_of(entry.name));
+  }
+  if (options.standby && options.services.size() == options.roster.size() && words.services.empty())
+    throw std::invalid_argument("--standby: no service of this mission has standby: true");
+}
+
 // A run that one launcher flies alone is like no other; hosts that share one are told its name, or take the
 // mission's.
 std::string default_run(const Options& options) {
@@ -72,66 +161,10 @@ Options parse_options(int argc, const char* const* argv, const services::process
   ContinuedCommandLine line = continued_command_line(argc, argv);
   Options options;
   options.continued = line.continued;
-  services::process::ConnectionFlags flags;
-  std::string mission;
-  std::string speed;
-  std::string clock = "simulated";
-  std::string service_list;
-  std::string roster;
-  CLI::App app("Flies a mission: starts every service, watches them, and reports the outcome", "roci-launch");
-  app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
-  app.add_option("mission", mission, "Mission folder, or the name of an installed mission")->required();
-  app.add_option("--scenario", options.scenario, "Scenario of the mission")->capture_default_str();
-  app.add_option("--dds", flags.dds, "fastdds, cyclonedds, mixed, or inproc (one process)");
-  app.add_option("--speed", speed, "Mission seconds per second, or max (default: 60 simulated, 1 live)");
-  app.add_option("--seed", options.seed, "Seed of everything random")
-      ->check(services::process::from_zero())
-      ->capture_default_str();
-  app.add_option("--clock", clock, "simulated or live")
-      ->check(CLI::IsMember({"simulated", "live"}))
-      ->capture_default_str();
-  app.add_flag("--headless", options.headless, "No progress display");
-  app.add_flag("--json", options.json, "The last line of standard output is the summary as JSON");
-  app.add_flag("--standby", options.standby,
-               "A second process follows each service that allows it (standby: true) and takes over from it");
-  app.add_option("--watchdog", options.watchdog_s,
-                 "Seconds of silence until a service counts as hung and is replaced; 0: never")
-      ->check(services::process::from_zero())
-      ->capture_default_str();
-  app.add_option("--services", service_list,
-                 "Services to start on this host, separated by commas (default: all)");
-  app.add_option("--become", options.become,
-                 "Turn into this one service of the mission's list, for a supervisor such as systemd; live, "
-                 "with --epoch");
-  app.add_option("--epoch", options.epoch_s,
-                 "With --become: mission time 0 in seconds since 1970, the same for all services");
-  app.add_option("--roster", roster, "Services of the whole run, on all hosts (default: all)");
-  app.add_option(
-      "--run", options.run,
-      "Identity of the run, the same on all of its hosts (or ROCI_RUN; default: one of its own, or the "
-      "mission's name where only some of its services start here)");
-  app.add_option("--domain", flags.domain, "DDS domain id (default: a free one)");
-  app.add_flag("--shared-domain", options.shared_domain,
-               "With --domain: start although another run is on it; neither obeys the other");
-  app.add_option("--address", flags.address, "The one interface address to use (default: loopback)");
-  app.add_option("--peers", flags.peers, "Hosts of the run, separated by commas");
-  app.add_option("--network", flags.network, "This host's network.yaml");
-  app.add_flag(services::process::kSecureFlag, flags.secure, services::process::kSecureHelp);
-  app.add_option("--run-folder", options.run_folder, "Folder for journal, logs and summary");
-  app.add_option("--resume",
-                 "Go on with the live run of this run folder, whose launcher has ended, as it was started; "
-                 "other options replace those of then")
-      ->type_name("RUN_FOLDER");
-  try {
-    app.parse(std::move(line.arguments));
-  } catch (const CLI::ParseError& error) {
-    std::ostringstream text;
-    const int code = app.exit(error, text, text);
-    throw services::process::CommandLineEnd(code == 0 ? 0 : 2, text.str());
-  }
-  options.mission = services::process::mission_folder(mission);
-  options.live = clock == "live";
-  options.speed = parse_speed(speed);
+  const Words words = read_words(std::move(line.arguments), options);
+  options.mission = process::mission_folder(words.mission);
+  options.live = words.clock == "live";
+  options.speed = parse_speed(words.speed);
   if (options.live && options.speed == 0.0)
     throw std::invalid_argument("--speed max needs the simulated clock");
   options.list = mission::load_service_list(options.mission);
@@ -139,21 +172,9 @@ Options parse_options(int argc, const char* const* argv, const services::process
     throw std::invalid_argument("no service of this mission has clock: master; fly it with --clock live");
   link::load_links(options.mission, options.scenario,
                    options.seed);  // a mistake is told before anything starts
-  if (!options.become.empty()) {
-    if (!options.live)
-      throw std::invalid_argument("--become: only live services start one by one; add --clock live");
-    service_list = checked_services(options.become, options, false).front();
-  }
-  options.services = checked_services(service_list, options, true);
-  options.roster = checked_services(roster, options, false);
-  if (options.standby && service_list.empty()) {
-    for (const mission::ServiceEntry& entry : options.list.services)
-      if (entry.paired) options.services.push_back(standby_of(entry.name));
-  }
-  if (options.standby && options.services.size() == options.roster.size() && service_list.empty())
-    throw std::invalid_argument("--standby: no service of this mission has standby: true");
+  choose_services(options, words);
   if (options.run.empty()) options.run = environment("ROCI_RUN").value_or(default_run(options));
-  options.connection = services::process::resolve_connection(flags, environment, options.mission);
+  options.connection = process::resolve_connection(words.connection, environment, options.mission);
   if (options.connection.dds == "mixed" && !options.connection.transport.vendor_xml.empty())
     throw std::invalid_argument(
         "--dds mixed and vendor_xml: the file is of one vendor, and reaches every process");

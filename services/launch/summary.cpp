@@ -63,22 +63,25 @@ std::string expected_text(const json& summary) {
   return "  events    " + (fault.empty() ? "as the scenario expects" : fault) + "\n";
 }
 
+// Returns what is told of goals where there are some: rejected ones, and those that the run has ended without.
+std::string more_goals_text(const json& goals) {
+  std::string out;
+  for (const char* state : {"rejected", "open"})
+    if (const int count = goals.value(state, 0); count > 0) out += fmt::format(", {} {}", count, state);
+  return out;
+}
+
 // Returns a line for each of several executives.
 std::string executives_text(const json& summary) {
   std::string out;
   const json executives = summary.value("executives", json::object());
   for (const auto& [name, own] : executives.items()) {
     const json goals = own.value("goals", json::object());
-    out +=
-        fmt::format("  {:<9} {}: {} achieved, {} dropped, {} failed\n", name, own.value("result", "failed"),
-                    goals.value("achieved", 0), goals.value("dropped", 0), goals.value("failed", 0));
+    out += fmt::format("  {:<9} {}: {} achieved, {} dropped, {} failed{}\n", name,
+                       own.value("result", "failed"), goals.value("achieved", 0), goals.value("dropped", 0),
+                       goals.value("failed", 0), more_goals_text(goals));
   }
   return out;
-}
-
-std::string rejected_text(const json& goals) {
-  const int rejected = goals.value("rejected", 0);
-  return rejected == 0 ? "" : fmt::format(", {} rejected", rejected);
 }
 
 // Returns a line for each link that the scenario declares and that carried something.
@@ -113,7 +116,7 @@ std::string text_with_goals(const json& summary, const Options& options) {
       "  run       {}\n",
       summary.value("mission", ""), summary.value("scenario", ""), summary.value("seed", std::uint64_t{0}),
       summary.value("dds", ""), summary.value("result", ""), goals.value("achieved", 0),
-      goals.value("dropped", 0), goals.value("failed", 0), rejected_text(goals), executives_text(summary),
+      goals.value("dropped", 0), goals.value("failed", 0), more_goals_text(goals), executives_text(summary),
       planner.value("calls", 0), planner.value("max_s", 0.0), planner.value("max_rss_mb", 0.0),
       summary.value("replans", 0), summary.value("sim_s", 0.0), summary.value("wall_s", 0.0),
       expected_text(summary), links_text(summary), options.run_folder.string());
@@ -127,7 +130,8 @@ Summary complete_summary(const Options& options, double wall_s, bool ended_well)
   complete(summary, options, ended_well && !counts_goals ? kServed : "failed");
   summary["dds"] = options.connection.dds;
   summary["wall_s"] = wall_s;
-  std::ofstream(options.run_folder / services::kSummaryFile) << summary.dump(2, ' ', false, json::error_handler_t::replace) << '\n';
+  std::ofstream(options.run_folder / services::kSummaryFile)
+      << summary.dump(2, ' ', false, json::error_handler_t::replace) << '\n';
   const std::string result = summary.value("result", "");
   return {result == "achieved" || result == kServed,
           summary.dump(-1, ' ', false, json::error_handler_t::replace),

@@ -33,15 +33,14 @@ class Hash {
 
 }  // namespace
 
-double chance(std::uint64_t seed, const std::string& link, const Passenger& passenger,
-              std::uint32_t attempt) {
+double chance(std::uint64_t seed, const std::string& link, const LinkSample& sample, std::uint32_t attempt) {
   Hash hash;
   hash.add(seed);
   hash.add(link);
-  hash.add(passenger.topic);
-  hash.add(passenger.sender);
-  hash.add(passenger.incarnation);
-  hash.add(passenger.number);
+  hash.add(sample.topic);
+  hash.add(sample.sender);
+  hash.add(sample.incarnation);
+  hash.add(sample.number);
   hash.add(attempt);
   return static_cast<double>(hash.mixed() >> 11) * 0x1.0p-53;
 }
@@ -62,17 +61,17 @@ Counts Channel::counts() const {
   return out;
 }
 
-bool Channel::offer(Passenger passenger, Time now) {
+bool Channel::offer(LinkSample sample, Time now) {
   run(now);
   const std::uint64_t offer = ++offers_;
   ++counts_.offered;
-  if (refuses(passenger, now)) {
+  if (refuses(sample, now)) {
     ++counts_.lost;
-    note(now, passenger, 1, Fate::lost);
+    note(now, sample, 1, Fate::lost);
     return false;
   }
-  if (passenger.lifetime == Lifetime::newest) supersede(passenger, offer, now);
-  waiting_.emplace(Order{now, offer}, Waiting{std::move(passenger)});
+  if (sample.lifetime == Lifetime::newest) supersede(sample, offer, now);
+  waiting_.emplace(Order{now, offer}, Waiting{std::move(sample)});
   run(now);
   if (flying_.erase({now, offer}) == 0) return false;
   ++counts_.arrived;
@@ -99,12 +98,12 @@ std::optional<Time> Channel::next() const {
   return next;
 }
 
-bool Channel::refuses(const Passenger& passenger, Time now) const {
+bool Channel::refuses(const LinkSample& sample, Time now) const {
   if (flying_.size() + waiting_.size() >= kLongestFlight) return true;
-  if (passenger.lifetime == Lifetime::newest && newest_.size() >= kLongestFlight &&
-      !newest_.contains({passenger.topic, {passenger.sender, passenger.instance}}))
+  if (sample.lifetime == Lifetime::newest && newest_.size() >= kLongestFlight &&
+      !newest_.contains({sample.topic, {sample.sender, sample.instance}}))
     return true;
-  return passenger.lifetime == Lifetime::once && (waiting_.size() >= kLongestQueue || !link_->open.open(now));
+  return sample.lifetime == Lifetime::once && (waiting_.size() >= kLongestQueue || !link_->open.open(now));
 }
 
 // What is ready first is sent first; the link being closed for it, it is closed for all behind it.
@@ -112,8 +111,7 @@ std::optional<Time> Channel::next_start() const {
   if (waiting_.empty()) return std::nullopt;
   const auto& [order, waiting] = *waiting_.begin();
   const Time earliest = std::max(order.first, free_at_);
-  const bool dies =
-      waiting.passenger.lifetime == Lifetime::once && link_->open.closes(order.first) <= earliest;
+  const bool dies = waiting.sample.lifetime == Lifetime::once && link_->open.closes(order.first) <= earliest;
   return dies ? std::optional(order.first) : link_->open.next_open(earliest);
 }
 
@@ -125,32 +123,32 @@ void Channel::run(Time now) {
 }
 
 void Channel::send(Order order, Waiting waiting, Time start) {
-  const bool once = waiting.passenger.lifetime == Lifetime::once;
+  const bool once = waiting.sample.lifetime == Lifetime::once;
   if (once && link_->open.closes(order.first) <= std::max(start, free_at_)) {
     ++counts_.lost;
-    note(link_->open.closes(order.first), waiting.passenger, waiting.attempt, Fate::lost);
+    note(link_->open.closes(order.first), waiting.sample, waiting.attempt, Fate::lost);
     return;
   }
   const Time closes = link_->open.closes(start);
-  const Time end = temporal::plus(start, sending_time(waiting.passenger));
+  const Time end = temporal::plus(start, sending_time(waiting.sample));
   free_at_ = std::min(end, closes);
   if (end > closes || chance_loses(waiting)) {
     if (!once) return repeat(order, std::move(waiting), free_at_);
     ++counts_.lost;
-    note(free_at_, waiting.passenger, waiting.attempt, Fate::lost);
+    note(free_at_, waiting.sample, waiting.attempt, Fate::lost);
     return;
   }
-  flying_.emplace(Order{temporal::plus(end, link_->light_time), order.second}, std::move(waiting.passenger));
+  flying_.emplace(Order{temporal::plus(end, link_->light_time), order.second}, std::move(waiting.sample));
 }
 
 void Channel::repeat(Order order, Waiting waiting, Time ended) {
-  const Passenger& passenger = waiting.passenger;
-  if (newest_[{passenger.topic, {passenger.sender, passenger.instance}}] != order.second) {
+  const LinkSample& sample = waiting.sample;
+  if (newest_[{sample.topic, {sample.sender, sample.instance}}] != order.second) {
     ++counts_.superseded;
-    note(ended, passenger, waiting.attempt, Fate::superseded);
+    note(ended, sample, waiting.attempt, Fate::superseded);
     return;
   }
-  note(ended, passenger, waiting.attempt, Fate::repeated);
+  note(ended, sample, waiting.attempt, Fate::repeated);
   const Duration pause =
       std::min(kLongestRepetitionPause, kRepetitionPause * (1 << std::min(waiting.attempt - 1, 8U)));
   ++waiting.attempt;
@@ -159,10 +157,10 @@ void Channel::repeat(Order order, Waiting waiting, Time ended) {
   waiting_.emplace(Order{ready, order.second}, std::move(waiting));
 }
 
-void Channel::supersede(const Passenger& newer, std::uint64_t offer, Time now) {
+void Channel::supersede(const LinkSample& newer, std::uint64_t offer, Time now) {
   newest_[{newer.topic, {newer.sender, newer.instance}}] = offer;
   counts_.superseded += std::erase_if(waiting_, [&](const auto& entry) {
-    const Passenger& older = entry.second.passenger;
+    const LinkSample& older = entry.second.sample;
     if (older.lifetime != Lifetime::newest || older.topic != newer.topic || older.sender != newer.sender ||
         older.instance != newer.instance)
       return false;
@@ -171,19 +169,19 @@ void Channel::supersede(const Passenger& newer, std::uint64_t offer, Time now) {
   });
 }
 
-void Channel::note(Time at, const Passenger& passenger, std::uint32_t attempt, Fate fate) {
-  if (losses_.size() < kMostLosses) losses_.push_back({at, passenger, attempt, fate});
+void Channel::note(Time at, const LinkSample& sample, std::uint32_t attempt, Fate fate) {
+  if (losses_.size() < kMostLosses) losses_.push_back({at, sample, attempt, fate});
 }
 
 std::vector<Loss> Channel::take_losses() { return std::exchange(losses_, {}); }
 
 bool Channel::chance_loses(const Waiting& waiting) const {
-  return link_->loss > 0 && chance(seed_, link_->name, waiting.passenger, waiting.attempt) < link_->loss;
+  return link_->loss > 0 && chance(seed_, link_->name, waiting.sample, waiting.attempt) < link_->loss;
 }
 
-Duration Channel::sending_time(const Passenger& passenger) const {
+Duration Channel::sending_time(const LinkSample& sample) const {
   if (link_->rate_bit_s <= 0) return Duration{0};
-  const double us = std::ceil(8e6 * static_cast<double>(passenger.bytes) / link_->rate_bit_s);
+  const double us = std::ceil(8e6 * static_cast<double>(sample.bytes) / link_->rate_bit_s);
   return us < 9e18 ? Duration{static_cast<std::int64_t>(us)} : temporal::no_bound;
 }
 

@@ -42,8 +42,8 @@ enum class Lifetime {
   newest,  ///< The newest sample of an instance arrives in the end.
 };
 
-/// What the model knows of a sample.
-struct Passenger {
+/// What the model knows of a sample on its way over a link.
+struct LinkSample {
   std::string topic;
   std::string sender;
   std::uint32_t incarnation = 0;
@@ -69,7 +69,7 @@ struct Counts {
 /// Is an attempt to send a sample that did not bring it there.
 struct Loss {
   temporal::Time at{};
-  Passenger passenger;
+  LinkSample sample;
   std::uint32_t attempt = 1;
   Fate fate = Fate::lost;
 };
@@ -84,11 +84,11 @@ class Channel {
 
   /// Takes a sample that is sent now. Returns true if it arrives now; else take() returns it when it arrives,
   /// if it does. Times never go back, in calls of offer() and take() together.
-  bool offer(Passenger, temporal::Time now);
+  bool offer(LinkSample, temporal::Time now);
 
   struct Arrival {
     temporal::Time at{};
-    Passenger passenger;
+    LinkSample sample;
   };
   /// Removes and returns what has arrived by now, in the order of arrival, then of sending.
   std::vector<Arrival> take(temporal::Time now);
@@ -101,7 +101,7 @@ class Channel {
 
  private:
   struct Waiting {
-    Passenger passenger;
+    LinkSample sample;
     std::uint32_t attempt = 1;
   };
   using Order = std::pair<temporal::Time, std::uint64_t>;  // ready since, number of the offer
@@ -111,24 +111,24 @@ class Channel {
   std::optional<temporal::Time> next_start() const;
   void send(Order, Waiting, temporal::Time start);
   void repeat(Order, Waiting, temporal::Time ended);
-  void supersede(const Passenger&, std::uint64_t offer, temporal::Time now);
-  void note(temporal::Time at, const Passenger&, std::uint32_t attempt, Fate);
-  bool refuses(const Passenger&, temporal::Time now) const;
+  void supersede(const LinkSample&, std::uint64_t offer, temporal::Time now);
+  void note(temporal::Time at, const LinkSample&, std::uint32_t attempt, Fate);
+  bool refuses(const LinkSample&, temporal::Time now) const;
   bool chance_loses(const Waiting&) const;
-  temporal::Duration sending_time(const Passenger&) const;
+  temporal::Duration sending_time(const LinkSample&) const;
 
   const Link* link_;
   std::uint64_t seed_;
   std::uint64_t offers_ = 0;
   temporal::Time free_at_ = -temporal::no_bound;
   std::map<Order, Waiting> waiting_;
-  std::map<Order, Passenger> flying_;         // by arrival
+  std::map<Order, LinkSample> flying_;        // by arrival
   std::map<Instance, std::uint64_t> newest_;  // the newest offer of each instance
   Counts counts_;
   std::vector<Loss> losses_;
 };
 
 /// A number from 0 up to 1 that depends on these alone.
-double chance(std::uint64_t seed, const std::string& link, const Passenger&, std::uint32_t attempt);
+double chance(std::uint64_t seed, const std::string& link, const LinkSample&, std::uint32_t attempt);
 
 }  // namespace roci::services::link

@@ -9,7 +9,7 @@
 
 namespace roci::services::link {
 
-/// From the first time on, and before the second.
+/// Lasts from the first time on, and ends before the second.
 using Interval = std::pair<temporal::Time, temporal::Time>;
 
 class Schedule {

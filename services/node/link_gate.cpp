@@ -14,10 +14,10 @@ bool sent_up(std::string_view topic) {
          topic == topics::network_order.name;
 }
 
-link::Passenger passenger_of(const TopicSpec& topic, const link::Link& link,
-                             const std::shared_ptr<const void>& value) {
+link::LinkSample link_sample_of(const TopicSpec& topic, const link::Link& link,
+                                const std::shared_ptr<const void>& value) {
   const v1::SampleHeader& header = topic.codec.header(value.get());
-  link::Passenger out{topic.name, header.sender(), header.incarnation(), header.seq()};
+  link::LinkSample out{topic.name, header.sender(), header.incarnation(), header.seq()};
   if (link.rate_bit_s > 0) out.bytes = topic.codec.size(value.get());
   if (topic.qos == transport::Qos::state) {
     const transport::Payload key = topic.codec.key(value.get());
@@ -47,7 +47,7 @@ bool LinkGate::admit(TopicReader& reader, const std::shared_ptr<const void>& val
                               Direction{link::Channel(*passage->link, links.seed()), passage->link->name});
   direction->second.readers[reader.topic.name] = &reader;
   const bool arrived =
-      direction->second.channel.offer(passenger_of(reader.topic, *passage->link, value), now);
+      direction->second.channel.offer(link_sample_of(reader.topic, *passage->link, value), now);
   note_losses(direction->second);
   return arrived;
 }
@@ -68,7 +68,7 @@ link::Party LinkGate::sender_of(const TopicReader& reader, const void* value) co
 void LinkGate::note_losses(Direction& direction) {
   for (const link::Loss& loss : direction.channel.take_losses()) {
     if (lost_.size() >= kNamedLosses) return;
-    const link::Passenger& sample = loss.passenger;
+    const link::LinkSample& sample = loss.sample;
     const Codec& codec = direction.readers.at(sample.topic)->topic.codec;
     lost_.push_back({loss.at, direction.name, sample.topic, codec.key_words(sample.value.get()),
                      sample.sender, sample.incarnation, sample.number, loss.attempt, loss.fate});
@@ -80,7 +80,7 @@ std::vector<LinkGate::Due> LinkGate::take(temporal::Time now) {
   for (auto& [key, direction] : directions_) {
     for (link::Channel::Arrival& arrival : direction.channel.take(now))
       arrived.push_back(
-          {arrival.at, {direction.readers.at(arrival.passenger.topic), std::move(arrival.passenger.value)}});
+          {arrival.at, {direction.readers.at(arrival.sample.topic), std::move(arrival.sample.value)}});
     note_losses(direction);
   }
   std::ranges::stable_sort(arrived, {}, &std::pair<temporal::Time, Due>::first);

@@ -47,7 +47,7 @@ class LinkGate {
   std::optional<temporal::Duration> round_trip(const std::string& service) const;
   /// The same for every service that a link joins.
   std::map<std::string, temporal::Duration> round_trips() const;
-  /// By name of the link.
+  /// Go by name of the link.
   std::map<std::string, link::Counts> counts() const;
   /// What was lost, in the order in which it became known here.
   const std::vector<link::LostSample>& lost() const { return lost_; }

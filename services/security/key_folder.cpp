@@ -3,7 +3,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cstdlib>
 #include <ctime>
 #include <fstream>
@@ -147,15 +146,6 @@ std::string date_text(std::int64_t unix_s) {
   char text[32];
   std::strftime(text, sizeof text, "%Y-%m-%d %H:%M UTC", &utc);
   return text;
-}
-
-std::vector<std::string> services_in(const fs::path& folder) {
-  std::vector<std::string> out;
-  std::error_code none;
-  for (const auto& entry : fs::directory_iterator(folder / "services", none))
-    out.push_back(entry.path().filename());
-  std::ranges::sort(out);
-  return out;
 }
 
 }  // namespace roci::services::security

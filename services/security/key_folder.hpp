@@ -45,7 +45,4 @@ std::string expiry_warning(const transport::Credentials&, std::int64_t now_s);
 /// "2027-01-31 12:00 UTC".
 std::string date_text(std::int64_t unix_s);
 
-/// The services that have certificates in the folder, by name.
-std::vector<std::string> services_in(const std::filesystem::path& folder);
-
 }  // namespace roci::services::security

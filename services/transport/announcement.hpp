@@ -13,7 +13,7 @@ namespace roci::services::transport {
 
 struct Announcement {
   std::string build;
-  /// By the type's name without its module, e.g. "Goal"; eight hexadecimal digits.
+  /// Go by the type's name without its module, e.g. "Goal", and have eight hexadecimal digits.
   std::map<std::string, std::string, std::less<>> hashes;
 
   /// The hash of a type such as "roci::v1::Goal"; empty if it is not announced.

@@ -6,8 +6,8 @@
 
 namespace roci::services::transport {
 
-/// In bytes of the serialized sample. A larger one is refused by its writer, and by its reader before it is decoded. A
-/// decoded sample takes at most sixteen times as much (tests/fuzz/topics).
+/// Counts bytes of the serialized sample. A larger one is refused by its writer, and by its reader before it is
+/// decoded. A decoded sample takes at most sixteen times as much (tests/fuzz/topics).
 enum class PayloadLimit : std::uint32_t {
   word = 16 << 10,     ///< Values with names, and nothing that grows with a plan.
   page = 256 << 10,    ///< What has a text in plain words.

@@ -7,7 +7,7 @@
 
 namespace roci::services::transport {
 
-/// Of one reason, since the transport was opened.
+/// Counts those of one reason, since the transport was opened.
 struct RefusedDatagrams {
   /// Is one of a few words, e.g. "stranger" (vendors/guard/verdict.hpp).
   std::string reason;

@@ -111,12 +111,6 @@ MotionEquation ArmDynamics::equation(const JointVector& q, const JointVector& ra
   return out;
 }
 
-JointVector ArmDynamics::accelerations(const JointVector& q, const JointVector& rate,
-                                       const JointVector& effort) const {
-  const MotionEquation motion = equation(q, rate);
-  return motion.inertia.llt().solve(effort - motion.bias);
-}
-
 double ArmDynamics::energy_j(const JointVector& q, const JointVector& rate) const {
   Moving bodies;
   place(q, bodies);

@@ -30,9 +30,6 @@ class ArmDynamics {
 
   /// Both vectors have one value for each joint: rad or m, and per s.
   MotionEquation equation(const kinematics::JointVector& q, const kinematics::JointVector& rate) const;
-  /// Returns q̈ under the joint forces `effort`, N·m or N (forward dynamics).
-  kinematics::JointVector accelerations(const kinematics::JointVector& q, const kinematics::JointVector& rate,
-                                        const kinematics::JointVector& effort) const;
   /// Returns the kinetic energy and that of height in the field of gravity, J; its zero lies in the base's origin.
   double energy_j(const kinematics::JointVector& q, const kinematics::JointVector& rate) const;
   Eigen::Index joints() const { return static_cast<Eigen::Index>(links_.size()); }

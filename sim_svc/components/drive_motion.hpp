@@ -1,3 +1,4 @@
+// How the simulated wheels move over the true ground, step by step.
 #pragma once
 #include <cstddef>
 #include <optional>

@@ -37,7 +37,7 @@ struct LaboratorySettings {
   double power_noise = 0.05;
   std::map<std::string, Signature> signatures;  ///< <site>_<target> → the truth
   double positive_share = 0.5;                  ///< of those that are drawn by the seed
-  /// Of an analysis, by its form; empty: none, in any form.
+  /// Are those of an analysis, by its form; empty: none, in any form.
   std::map<std::string, std::vector<ProductForm>> products;
   double positive_content = 1.2;  ///< bytes of what holds a signature, as against what holds none
 };

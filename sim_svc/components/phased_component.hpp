@@ -1,3 +1,4 @@
+// What components have in common whose tasks run through phases.
 #pragma once
 #include <optional>
 #include <string>

@@ -1,3 +1,4 @@
+// Images of the simulated ground as a body's camera takes them.
 #pragma once
 #include <cstdint>
 #include <vector>

@@ -1,3 +1,4 @@
+// The simulated ground in the detail that a camera sees.
 #pragma once
 #include <cstdint>
 #include <vector>

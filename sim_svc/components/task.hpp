@@ -33,7 +33,7 @@ struct TaskCommand {
   double duration_s = 0;
   double duration_noise = 0;  ///< standard deviation as a share of the duration
   double power_w = 0;         ///< while it runs; negative: it charges the battery
-  /// By so much, in J, the battery must have risen when it is looked at, unless it is full then; else the task
+  /// The battery must have risen by so much, in J, when it is looked at, unless it is full then; else the task
   /// is broken off and fails `no-gain`. 0: it is not looked at.
   double gains_j = 0;
   std::optional<double> gains_within_s{};  ///< since the start, when it is looked at; empty: at the end

@@ -1,3 +1,4 @@
+// What a scenario says of the bodies' energy, heat and storage, over what the mission says.
 #pragma once
 #include <set>
 #include <string>

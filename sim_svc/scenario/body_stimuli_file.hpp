@@ -1,3 +1,4 @@
+// Stimuli of a scenario file that concern a robot's energy, heat and view.
 #pragma once
 #include "core/mission/entry.hpp"
 #include "sim_svc/setup/roster_file.hpp"

@@ -1,3 +1,4 @@
+// The events that a scenario expects, compared with those that come.
 #pragma once
 #include <cstddef>
 #include <set>

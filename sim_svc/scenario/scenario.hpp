@@ -78,7 +78,7 @@ struct Stimulus {
   std::variant<GoalStimulus, RecallStimulus, HazardStimulus, NetworkStimulus, OrderStimulus,
                world::Disturbance>
       what;
-  /// Is where an OrderStimulus, ComponentMishap, HollowSuccess, ViewBlock or SoilChange stands in the file.
+  /// Is where `what` stands in the file, if it was read from one.
   std::optional<mission::Entry> entry{};
 };
 

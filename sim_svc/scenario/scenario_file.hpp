@@ -1,3 +1,4 @@
+// A scenario from its file.
 #pragma once
 #include <vector>
 

@@ -1,6 +1,7 @@
 #include "sim_svc/scenario/stimuli_file.hpp"
 
 #include <algorithm>
+#include <array>
 #include <fstream>
 #include <set>
 #include <utility>
@@ -180,6 +181,102 @@ const RobotEntry& robot_of(const Entry& entry, const Roster& roster) {
              setup::known_names("", robot_names(roster)));
 }
 
+using What = decltype(Stimulus::what);
+
+// Is whom a stimulus concerns, and when; `entry` is the whole of it.
+struct Occasion {
+  const Entry& entry;
+  const Roster& roster;
+  Time at;
+
+  const RobotEntry& robot() const { return robot_of(entry, roster); }
+  Disturbance mishap(world::Mishap what) const {
+    return Disturbance{ComponentMishap{robot().name, std::move(what)}};
+  }
+};
+
+// Is a word that a stimulus may hold, and who reads what stands there.
+struct StimulusKind {
+  const char* word;
+  What (*read)(const Entry& entry, const Occasion& occasion);
+};
+
+constexpr std::array kStimulusKinds{
+    StimulusKind{"goal", [](const Entry& entry, const Occasion&) -> What { return read_goal(entry); }},
+    StimulusKind{"recall", [](const Entry& entry, const Occasion&) -> What { return read_recall(entry); }},
+    StimulusKind{"hazard", [](const Entry& entry, const Occasion&) -> What { return read_hazard(entry); }},
+    StimulusKind{"fault",
+                 [](const Entry& entry, const Occasion& occasion) -> What {
+                   return Disturbance{read_fault(entry, occasion.robot(), occasion.at)};
+                 }},
+    StimulusKind{
+        "rock",
+        [](const Entry& entry, const Occasion&) -> What { return Disturbance{RockFall{read_rock(entry)}}; }},
+    StimulusKind{"battery_loss_j",
+                 [](const Entry& entry, const Occasion& occasion) -> What {
+                   return Disturbance{read_energy_loss(entry, occasion.robot())};
+                 }},
+    StimulusKind{"battery_to_j",
+                 [](const Entry& entry, const Occasion& occasion) -> What {
+                   return Disturbance{read_energy_drop(entry, occasion.robot())};
+                 }},
+    StimulusKind{"module_fails",
+                 [](const Entry& entry, const Occasion& occasion) -> What {
+                   return occasion.mishap(read_module_failure(entry));
+                 }},
+    StimulusKind{"slot_blocked",
+                 [](const Entry& entry, const Occasion& occasion) -> What {
+                   return occasion.mishap(read_slot_block(entry));
+                 }},
+    StimulusKind{"slow_joint",
+                 [](const Entry& entry, const Occasion& occasion) -> What {
+                   return occasion.mishap(read_joint_wear(entry));
+                 }},
+    StimulusKind{"eclipse",
+                 [](const Entry& entry, const Occasion& occasion) -> What {
+                   return Disturbance{read_eclipse(entry, occasion.robot(), occasion.at)};
+                 }},
+    StimulusKind{"network", [](const Entry& entry, const Occasion&) -> What { return read_network(entry); }},
+    StimulusKind{"parameter",
+                 [](const Entry& entry, const Occasion&) -> What { return read_parameter(entry); }},
+    StimulusKind{"trench_collapses",
+                 [](const Entry& entry, const Occasion& occasion) -> What {
+                   return occasion.mishap(read_collapse(entry));
+                 }},
+    StimulusKind{"hollow",
+                 [](const Entry& entry, const Occasion& occasion) -> What {
+                   return Disturbance{read_hollow(entry, occasion.robot())};
+                 }},
+    StimulusKind{"surroundings",
+                 [](const Entry& entry, const Occasion& occasion) -> What {
+                   return Disturbance{read_surroundings_change(entry, occasion.roster)};
+                 }},
+    StimulusKind{"heat",
+                 [](const Entry& entry, const Occasion& occasion) -> What {
+                   return Disturbance{read_sudden_heat(entry, occasion.robot())};
+                 }},
+    StimulusKind{"rate",
+                 [](const Entry& entry, const Occasion& occasion) -> What {
+                   return Disturbance{read_rate_change(entry, occasion.robot())};
+                 }},
+    StimulusKind{"blocked_view",
+                 [](const Entry& entry, const Occasion& occasion) -> What {
+                   return Disturbance{read_view_block(entry, occasion.at)};
+                 }},
+    StimulusKind{"set", [](const Entry& entry, const Occasion&) -> What { return read_set(entry); }},
+    StimulusKind{"order", [](const Entry& entry, const Occasion&) -> What { return read_order(entry); }},
+    StimulusKind{"soil",
+                 [](const Entry& entry, const Occasion&) -> What {
+                   return Disturbance{world::SoilChange{read_soil_area(entry)}};
+                 }},
+};
+
+std::string stimulus_kinds() {
+  std::string out;
+  for (const StimulusKind& kind : kStimulusKinds) out += (out.empty() ? "" : ", ") + std::string(kind.word);
+  return out;
+}
+
 Stimulus read_stimulus(const Entry& entry, const Roster& roster) {
   entry.allow_only({"at_s",         "robot",        "goal",         "recall",
                     "hazard",       "fault",        "rock",         "battery_loss_j",
@@ -188,65 +285,16 @@ Stimulus read_stimulus(const Entry& entry, const Roster& roster) {
                     "hollow",       "surroundings", "heat",         "set",
                     "rate",         "blocked_view", "soil",         "order"});
   const std::size_t frame = entry.find("robot") ? 2 : 1;
-  if (entry.fields().size() != frame + 1) {
-    entry.fail(
-        "a stimulus is at_s (and robot) and one of goal, recall, hazard, fault, rock, battery_loss_j, "
-        "battery_to_j, "
-        "module_fails, slot_blocked, slow_joint, eclipse, network, parameter, trench_collapses, hollow, "
-        "surroundings, heat, rate, blocked_view, set, order, soil; split it into several");
-  }
+  if (entry.fields().size() != frame + 1)
+    entry.fail("a stimulus is at_s (and robot) and one of " + stimulus_kinds() + "; split it into several");
   Stimulus out;
   out.at = time_of(entry.at("at_s"));
-  if (const auto goal = entry.find("goal")) out.what = read_goal(*goal);
-  if (const auto recall = entry.find("recall")) out.what = read_recall(*recall);
-  if (const auto hazard = entry.find("hazard")) out.what = read_hazard(*hazard);
-  if (const auto network = entry.find("network")) out.what = read_network(*network);
-  if (const auto parameter = entry.find("parameter")) out.what = read_parameter(*parameter);
-  if (const auto value = entry.find("set")) {
-    out.what = read_set(*value);
-    out.entry = *value;
+  for (const StimulusKind& kind : kStimulusKinds) {
+    out.entry = entry.find(kind.word);
+    if (!out.entry) continue;
+    out.what = kind.read(*out.entry, {entry, roster, out.at});
+    break;
   }
-  if (const auto order = entry.find("order")) {
-    out.what = read_order(*order);
-    out.entry = *order;
-  }
-  if (const auto fault = entry.find("fault")) {
-    out.what = Disturbance{read_fault(*fault, robot_of(entry, roster), out.at)};
-  }
-  if (const auto rock = entry.find("rock")) out.what = Disturbance{RockFall{read_rock(*rock)}};
-  if (const auto soil = entry.find("soil")) {
-    out.what = Disturbance{world::SoilChange{read_soil_area(*soil)}};
-    out.entry = *soil;
-  }
-  if (const auto loss = entry.find("battery_loss_j")) {
-    out.what = Disturbance{read_energy_loss(*loss, robot_of(entry, roster))};
-  }
-  if (const auto drop = entry.find("battery_to_j"))
-    out.what = Disturbance{read_energy_drop(*drop, robot_of(entry, roster))};
-  if (const auto change = entry.find("surroundings"))
-    out.what = Disturbance{read_surroundings_change(*change, roster)};
-  if (const auto heat = entry.find("heat"))
-    out.what = Disturbance{read_sudden_heat(*heat, robot_of(entry, roster))};
-  if (const auto rate = entry.find("rate"))
-    out.what = Disturbance{read_rate_change(*rate, robot_of(entry, roster))};
-  if (const auto block = entry.find("blocked_view")) {
-    out.what = Disturbance{read_view_block(*block, out.at)};
-    out.entry = *block;
-  }
-  const auto befalls = [&](const Entry& where, world::Mishap what) {
-    out.what = Disturbance{ComponentMishap{robot_of(entry, roster).name, std::move(what)}};
-    out.entry = where;
-  };
-  if (const auto failure = entry.find("module_fails")) befalls(*failure, read_module_failure(*failure));
-  if (const auto block = entry.find("slot_blocked")) befalls(*block, read_slot_block(*block));
-  if (const auto wear = entry.find("slow_joint")) befalls(*wear, read_joint_wear(*wear));
-  if (const auto collapse = entry.find("trench_collapses")) befalls(*collapse, read_collapse(*collapse));
-  if (const auto hollow = entry.find("hollow")) {
-    out.what = Disturbance{read_hollow(*hollow, robot_of(entry, roster))};
-    out.entry = *hollow;
-  }
-  if (const auto eclipse = entry.find("eclipse"))
-    out.what = Disturbance{read_eclipse(*eclipse, robot_of(entry, roster), out.at)};
   return out;
 }
 

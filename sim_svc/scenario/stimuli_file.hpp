@@ -1,3 +1,4 @@
+// The stimuli of a scenario file: what happens in a run, and when.
 #pragma once
 #include <vector>
 

@@ -1,3 +1,4 @@
+// The component types that a mission may name, and who reads their settings.
 #pragma once
 #include <functional>
 #include <map>

@@ -1,3 +1,4 @@
+// The simulated robots and their components as the mission file lists them.
 #pragma once
 #include <optional>
 #include <string>

@@ -1,3 +1,4 @@
+// A component's settings, looked up in scenario and mission.
 #pragma once
 #include <map>
 #include <memory>

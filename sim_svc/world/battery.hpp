@@ -1,3 +1,4 @@
+// A simulated battery: what charges and drains it, and what its gauge tells.
 #pragma once
 #include <optional>
 #include <string>

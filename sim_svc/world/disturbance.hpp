@@ -1,3 +1,4 @@
+// What a scenario may do to the world: faults, rocks, losses and changes.
 #pragma once
 #include <optional>
 #include <string>

@@ -1,3 +1,4 @@
+// Which products are to go with which downlink, as the simulated radios have been told.
 #pragma once
 #include <map>
 #include <string>

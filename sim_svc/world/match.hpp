@@ -1,3 +1,4 @@
+// Cases for std::visit.
 #pragma once
 
 namespace roci::sim::world {

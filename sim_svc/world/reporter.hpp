@@ -1,3 +1,4 @@
+// Observations of what has changed.
 #pragma once
 #include <map>
 #include <string>

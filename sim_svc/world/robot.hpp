@@ -84,7 +84,7 @@ class Robot {
   const std::optional<Pose>& pose() const { return body_.pose; }
   std::string component_names() const;  ///< "nav, arm, …"
   bool runs(const TaskKey&) const;
-  /// At the time up to which the robot was settled.
+  /// Returns it as of the time up to which the robot was settled.
   RobotMemory memory(temporal::Time now) const;
   /// Before the first task; the memory is of `at`.
   void restore(const RobotMemory&, temporal::Time at);

@@ -49,6 +49,8 @@ def unquoted(text, where):
         if len(text) < 2 or not text.endswith("'"):
             raise SystemExit(f"{where}: the quote is not closed")
         return text[1:-1].replace("''", "'")
+    if ": " in text or " #" in text or text.endswith(":") or text[:1] in tuple("*&!%@`{[|>\"#"):
+        raise SystemExit(f"{where}: YAML reads this value as something else than text; put it into single quotes")
     return text
 
 

@@ -27,7 +27,7 @@ class Line {
   /// O(log n) to find the block, and the size of a block.
   void add(const Event& event);
   void erase(const Event& event);
-  /// As above, for each block that the ask reaches into.
+  /// Does the same for each block that the ask reaches into.
   void add(const Ask& ask);
   void erase(const Ask& ask);
 

@@ -1,3 +1,4 @@
+// The map of a mission as a drawing.
 #pragma once
 #include "ground_console/cli/map/mission_map.hpp"
 #include "ground_console/cli/map/picture.hpp"

@@ -17,7 +17,7 @@ struct Span {
 /// Of what was skipped and never began: now.
 Span span_of(const v1::PlanActivity& activity, const v1::StepStatus* step, std::int64_t now);
 
-/// From the first start to the last end of the view's plan, which must be there, to the right of the labels.
+/// Reaches from the first start to the last end of the view's plan, which must be there, beside the labels.
 class Axis {
  public:
   static constexpr std::size_t kLabel = 36;  ///< columns, at least

@@ -59,11 +59,4 @@ std::optional<std::vector<Duration>> LongestPathStn::longest_from(std::size_t so
   return times;
 }
 
-std::optional<std::vector<Duration>> LongestPathStn::longest_to(std::size_t target) const {
-  LongestPathStn reversed(points_);
-  for (auto edge = edges_.rbegin(); edge != edges_.rend(); ++edge)
-    reversed.require(edge->to, edge->from, edge->least);
-  return reversed.longest_from(target);
-}
-
 }  // namespace roci::planner::temporal_pddl::constraints

@@ -40,10 +40,9 @@ class LongestPathStn {
   /// length.
   bool raise(std::vector<temporal::Duration>& times) const;
 
-  /// Returns the longest paths from `source` (itself 0), or to `target`, with kNoPath where there is none;
-  /// or nothing if the network is inconsistent.
+  /// Returns the longest paths from `source` (itself 0), with kNoPath where there is none; or nothing if the
+  /// network is inconsistent.
   std::optional<std::vector<temporal::Duration>> longest_from(std::size_t source) const;
-  std::optional<std::vector<temporal::Duration>> longest_to(std::size_t target) const;
 
  private:
   struct Edge {

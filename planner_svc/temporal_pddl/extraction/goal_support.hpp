@@ -11,7 +11,7 @@
 
 namespace roci::planner::temporal_pddl::extraction {
 
-/// For the step of each start, the indices of the goals that the action serves, in ascending order; nothing
+/// Returns for the step of each start which goals the action serves, by index, in ascending order; nothing
 /// for other steps. An action serves a goal of which it brings about a fact, and the goals of the actions that
 /// use what it brings about: causal links, as in partial-order planning (McAllester and Rosenblitt 1991).
 ///  - A use that undoes the fact counts only where nobody else uses it: a drive to a place serves what is done

@@ -14,7 +14,7 @@ struct AskedDecision {
   model::Index behaviour = 0;
   model::Index decision = 0;
   std::vector<model::Index> objects;  ///< of the behaviour's variables, as they were planned
-  /// By subgoal: whether its activity is one that the first choice carries out, or one whose arguments are bound.
+  /// Says by subgoal whether the first choice carries its activity out, or its arguments are bound.
   std::vector<bool> concerned;
 
   const model::Behaviour& of(const model::Model& model) const { return model.behaviours[behaviour]; }

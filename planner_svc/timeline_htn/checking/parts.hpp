@@ -9,7 +9,7 @@ namespace roci::planner::timeline_htn::checking {
 struct Decomposition {
   Index behaviour = 0;
   Binding binding;
-  /// By subgoal; kNone where it is a state to rest in that the timeline alone shows.
+  /// Goes by subgoal; kNone stands where it is a state to rest in that the timeline alone shows.
   std::vector<Index> part_of;
 };
 
@@ -22,7 +22,7 @@ struct Seen {
 /// Returns it, or nothing where nobody observes the state.
 std::optional<Seen> seen(const Version& version, const GroundState& state);
 
-/// By activity; empty for those that are not decomposed.
+/// Goes by activity; it is empty for those that are not decomposed.
 using Decompositions = std::vector<std::vector<Decomposition>>;
 
 /// Checks states, transitions, how long values last, and that activities stand on their timelines;

@@ -17,7 +17,7 @@ struct Transition {
 struct Matrix {
   std::vector<std::string> timelines;
   std::vector<Transition> transitions;  ///< in the order of their earliest times; the first is the origin
-  /// By timeline and transition; none: nothing is planned then.
+  /// Go by timeline and transition; none: nothing is planned then.
   std::vector<std::vector<temporal::Value>> values;
   std::vector<std::vector<bool>> changes;  ///< whether the timeline changes at the transition
 };

@@ -45,7 +45,7 @@ struct Relation {
   std::string name;
   std::vector<Index> types;
   std::vector<std::vector<Index>> rows;  ///< sorted, each once
-  /// Of a relation that is observed: it holds of a and b, too,
+  /// Is set where a relation is observed: it holds of a and b, too,
   /// where the timeline "TIMELINE.a.b" has this value. Else both are empty.
   std::string timeline{};
   std::string value{};
@@ -229,7 +229,7 @@ struct Decision {
   std::vector<Choice> choices;
   std::optional<Index> variable;
   bool over = false;  ///< each object of the variable is a choice: what is planned behind it depends on it
-  /// Of a decision over a variable: what is done of each choice before the plan is refined.
+  /// Are, of a decision over a variable, what is done of each choice before the plan is refined.
   std::vector<Index> subgoals;
 
   /// Returns whether some answer leaves undone what is planned behind the decision.
@@ -288,8 +288,8 @@ struct Problem {
   std::vector<std::optional<Pattern>> initial;      ///< by component; objects alone
   std::vector<Goal> goals;
   bool goals_changed = false;
-  /// By component: nothing where the plan brings its states about; else it stays as it begins until the first of these,
-  /// and no plan changes it. They stand in order of time. Components behind the last one have nothing.
+  /// Has nothing for a component whose states the plan brings about; another one stays as it begins until the first of
+  /// these, and no plan changes it. They stand in order of time. Components behind the last one have nothing.
   std::vector<std::optional<std::vector<PredictedState>>> predicted{};
   friend bool operator==(const Problem&, const Problem&) = default;
 };

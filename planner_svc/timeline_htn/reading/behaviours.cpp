@@ -46,9 +46,14 @@ class BehaviourReader {
       line.expect_end();
       const model::Component& component = vocabulary_.model.components[pattern.component];
       const model::State& state = component.states[pattern.state];
-      if (state.kind != model::StateKind::complex)
+      if (state.kind != model::StateKind::complex) {
+        std::vector<std::string> complex;
+        for (const model::State& one : component.states)
+          if (one.kind == model::StateKind::complex) complex.push_back(one.name);
         achieves->fail("'" + component.name + "." + state.name + "' is " + to_text(state.kind) +
-                       ", and a behaviour achieves a complex state; name one");
+                       ", and a behaviour achieves a complex state; " +
+                       (complex.empty() ? "name one" : known_or_declare(complex)));
+      }
       out_.achieves = pattern;
     }
     if (const auto triggers = entry_.find("triggers"))

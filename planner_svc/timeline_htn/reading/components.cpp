@@ -201,8 +201,10 @@ void declare_components(const Entry& section, Vocabulary& vocabulary, Places& pl
     vocabulary.states.emplace_back("state");
     places[{model::Part::component, index, 0}] = entry.place();
     component.name = name;
-    component.layer =
-        one_of<Layer>(entry.at("layer"), {{"abstract", Layer::abstract}, {"primitive", Layer::primitive}});
+    entry.attempt([&] {
+      component.layer =
+          one_of<Layer>(entry.at("layer"), {{"abstract", Layer::abstract}, {"primitive", Layer::primitive}});
+    });
     component.robot = entry.text_or("robot", "");
     for (const auto& [state, value] : fields(entry.at("states"), model::kMostStates)) {
       value.attempt([&, &state = state, &value = value] {

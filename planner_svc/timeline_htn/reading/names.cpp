@@ -1,7 +1,5 @@
 #include "planner_svc/timeline_htn/reading/names.hpp"
 
-#include <vector>
-
 #include "core/words/nearest_word.hpp"
 #include "planner_svc/timeline_htn/reading/line.hpp"
 
@@ -11,18 +9,18 @@ namespace {
 
 constexpr std::size_t kFew = 12;
 
-std::string listed(const std::vector<std::string>& known) {
-  if (known.empty() || known.size() > kFew) return "declare it";
-  std::string out;
-  for (const std::string& one : known) out += (out.empty() ? "known: " : ", ") + one;
-  return out;
-}
-
 std::string with_article(const std::string& kind) {
   return (kind.find_first_of("aeiou") == 0 ? "an " : "a ") + kind;
 }
 
 }  // namespace
+
+std::string known_or_declare(const std::vector<std::string>& known) {
+  if (known.empty() || known.size() > kFew) return "declare it";
+  std::string out;
+  for (const std::string& one : known) out += (out.empty() ? "known: " : ", ") + one;
+  return out;
+}
 
 void Names::add(const std::string& name, const mission::Entry& place) {
   if (!is_name(name))
@@ -31,7 +29,8 @@ void Names::add(const std::string& name, const mission::Entry& place) {
   const auto [entry, added] =
       known_.emplace(name, Known{static_cast<model::Index>(known_.size()), place.place()});
   if (!added)
-    place.fail("there is " + with_article(kind_) + " '" + name + "' already, at " + entry->second.place + "; rename one");
+    place.fail("there is " + with_article(kind_) + " '" + name + "' already, at " + entry->second.place +
+               "; rename one");
 }
 
 std::optional<model::Index> Names::find(std::string_view name) const {
@@ -44,7 +43,7 @@ model::Index Names::index(std::string_view name, const mission::Entry& place) co
   std::vector<std::string> all;
   for (const auto& [known, entry] : known_) all.push_back(known);
   place.fail("unknown " + kind_ + " '" + std::string(name.substr(0, 60)) + "'; " +
-             words::nearest(name, all).remedy(listed(all)));
+             words::nearest(name, all).remedy(known_or_declare(all)));
 }
 
 }  // namespace roci::planner::timeline_htn::reading

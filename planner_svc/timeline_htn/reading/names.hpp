@@ -5,11 +5,15 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/mission/entry.hpp"
 #include "planner_svc/timeline_htn/model/model.hpp"
 
 namespace roci::planner::timeline_htn::reading {
+
+/// Returns "known: a, b" for whom no near word can be named; "declare it" where there are none or many.
+std::string known_or_declare(const std::vector<std::string>& known);
 
 /// Maps names of one kind to their numbers.
 class Names {

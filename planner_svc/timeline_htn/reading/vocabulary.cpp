@@ -58,7 +58,7 @@ Term Vocabulary::term(const std::string& name, Index type, Scope& scope, const E
     for (const model::Object& one : model.objects)
       if (one.type == type) known.push_back(one.name);
     place.fail("'" + name + "' is no variable here and no " + model.types[type] + "; " +
-               words::nearest(name, known).remedy("declare it"));
+               words::nearest(name, known).remedy(known_or_declare(known)));
   }
   if (scope.variables.size() >= model::kMostVariables)
     place.fail("more than " + std::to_string(model::kMostVariables) + " variables; use fewer");
@@ -189,7 +189,7 @@ Test Vocabulary::test(Line& line, Scope& scope) const {
       for (const auto& one : model.numbers) known.push_back(one.name);
       for (const auto& one : scope.variables) known.push_back(one.name);
       line.fail("'" + first.name + "' is no relation, number, variable or object here; " +
-                words::nearest(first.name, known).remedy("declare it"));
+                words::nearest(first.name, known).remedy(known_or_declare(known)));
     }
   }
   out.kind = Test::Kind::numbers;

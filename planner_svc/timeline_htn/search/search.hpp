@@ -76,11 +76,11 @@ class Search {
   void prove_by_search_alone() { looked_at_ = true; }
   Outcome state() const { return state_; }
   const Count& count() const { return count_; }
-  /// With solved: the plan that was found.
+  /// Returns, with solved, the plan that was found.
   const PartialPlan& plan() const { return *plan_; }
   const Ground& ground() const { return ground_; }
   const Bindings& bindings() const { return bindings_; }
-  /// With exhausted: what the search that came farthest met, in words.
+  /// Returns, with exhausted, what the search that came farthest met, in words.
   std::string reason() const;
   /// The goal for which it says so; kNone: none in particular.
   Index blocking_goal() const;

@@ -38,7 +38,7 @@ struct Downlink {
   std::uint64_t bytes = 0;
   temporal::Duration takes{0};  ///< the transmission alone, as much of the window as is needed
   double energy_j = 0;          ///< of the transmission
-  /// In the order in which they go: by tier, then by utility, the greatest first, then the older one.
+  /// Stand in the order in which they go: by tier, then by utility, the greatest first, then the older one.
   std::vector<std::string> products{};
   temporal::timelines::TaskId id = 0;  ///< PlannedDownlink::id
   friend bool operator==(const Downlink&, const Downlink&) = default;

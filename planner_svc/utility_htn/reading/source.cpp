@@ -65,8 +65,11 @@ std::string Source::text_or(std::string_view key, std::string fallback) const {
 double Source::number() const {
   const Expression expression = parse_expression(text());
   if (!expression.fault.empty()) fail(expression.fault);
-  if (!expression.name.empty())
-    fail("'" + expression.name + "' stands where only a number can; write its value");
+  if (!expression.name.empty()) {
+    const bool has_value = bindings_->contains(expression.name);
+    fail("'" + expression.name + "' stands where only a number can; write " +
+         (has_value ? "\"{" + expression.name + "}\"" : "its value"));
+  }
   return expression.constant;
 }
 

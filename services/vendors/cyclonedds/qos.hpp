@@ -21,7 +21,7 @@ struct DeleteListener {
 };
 using ListenerPtr = std::unique_ptr<dds_listener_t, DeleteListener>;
 
-/// For writers and readers alike.
+/// Serves writers and readers alike.
 QosPtr endpoint_qos(const transport::QosSettings&);
 
 /// `entity` if it is a handle; throws TransportError "Cyclone DDS refused <what>: <why>" if it is an error

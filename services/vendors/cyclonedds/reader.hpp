@@ -1,3 +1,4 @@
+// A reader of Cyclone DDS: serialized samples come in, and ends of instances with their keys.
 #pragma once
 
 #include <atomic>

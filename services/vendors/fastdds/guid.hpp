@@ -1,3 +1,4 @@
+// Fast DDS's GUIDs as the transport has them.
 #pragma once
 
 #include <fastdds/rtps/common/Guid.h>

@@ -1,3 +1,4 @@
+// A reader of Fast DDS: samples come in as bytes that are decoded behind it, and ends of instances with their keys.
 #pragma once
 
 #include <atomic>

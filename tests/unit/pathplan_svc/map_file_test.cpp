@@ -18,13 +18,13 @@ std::string map_error(const std::string& text) {
 }
 
 TEST(MapFile, SaysWhenAMapIsTold) {
-  EXPECT_EQ(MapSettings{}.telling, Telling::never);
+  EXPECT_EQ(MapSettings{}.sharing, MapSharing::never);
   const MapSettings out =
       read_map_settings(mission::Entry::parse("tell: on_request\nsubsystem: terrain\n", "mission.yaml"));
-  EXPECT_EQ(out.telling, Telling::on_request);
+  EXPECT_EQ(out.sharing, MapSharing::on_request);
   EXPECT_EQ(out.subsystem, "terrain");
-  EXPECT_EQ(read_map_settings(mission::Entry::parse("tell: at_once\n", "mission.yaml")).telling,
-            Telling::at_once);
+  EXPECT_EQ(read_map_settings(mission::Entry::parse("tell: at_once\n", "mission.yaml")).sharing,
+            MapSharing::at_once);
 }
 
 TEST(MapFile, FaultsNameTheirPlaceAndTheRemedy) {

@@ -270,7 +270,16 @@ TEST_F(LaunchTest, TheSummaryIsCompletedAndAMissingOneIsAFailure) {
   EXPECT_THAT(summary.json, HasSubstr(R"("dds":"mixed")"));
   EXPECT_THAT(summary.json, HasSubstr(R"("wall_s":2.5)"));
   EXPECT_THAT(summary.json, HasSubstr(R"("goals":{"achieved":3})"));
-  EXPECT_THAT(summary.text, HasSubstr("achieved"));
+  EXPECT_THAT(summary.text, HasSubstr("3 achieved, 0 dropped, 0 failed\n"));
+}
+
+TEST_F(LaunchTest, TheSummaryTellsOfGoalsThatTheRunEndedWithout) {
+  Options options = parse({});
+  options.run_folder = folder;
+  std::ofstream(folder / "summary.json")
+      << R"({"result": "failed", "goals": {"achieved": 1, "rejected": 3, "open": 2}, "sim_s": 50})";
+  EXPECT_THAT(complete_summary(options, 1, true).text,
+              HasSubstr("1 achieved, 0 dropped, 0 failed, 3 rejected, 2 open\n"));
 }
 
 TEST_F(LaunchTest, AHostWithoutTheExecutiveServes) {

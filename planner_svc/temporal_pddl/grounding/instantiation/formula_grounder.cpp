@@ -246,6 +246,32 @@ bool FormulaGrounder::begins_with_value(NumberId number) {
   return valued_->find(numbers_.symbol(number.value), numbers_.objects(number.value)).has_value();
 }
 
+std::optional<LinearExpression> FormulaGrounder::combined(const LiftedExpression& expression,
+                                                          const LinearExpression& left,
+                                                          const LinearExpression& right) const {
+  switch (expression.op) {
+    case pddl::ArithmeticOperator::add:
+      return sum(left, right);
+    case pddl::ArithmeticOperator::subtract:
+      return sum(left, scaled(right, -1));
+    case pddl::ArithmeticOperator::multiply:
+      if (!left.is_constant() && !right.is_constant()) {
+        fail(expression.where, "a product of numbers that change is not linear",
+             "make one factor a constant");
+      }
+      return right.is_constant() ? scaled(left, right.constant) : scaled(right, left.constant);
+    case pddl::ArithmeticOperator::divide:
+      break;
+  }
+  if (!right.is_constant()) {
+    fail(expression.where, "division by a number that changes is not linear", "make the divisor a constant");
+  }
+  if (right.constant == 0) return std::nullopt;
+  LinearExpression quotient = scaled(left, 1 / right.constant);
+  quotient.constant = left.constant / right.constant;  // as it is rounded once
+  return quotient;
+}
+
 std::optional<LinearExpression> FormulaGrounder::linear_form(const LiftedExpression& expression,
                                                              const Binding& binding,
                                                              std::vector<NumberId>& cancelled) {
@@ -285,34 +311,9 @@ std::optional<LinearExpression> FormulaGrounder::linear_form(const LiftedExpress
       result = negation ? scaled(*operand, -1) : *operand;
       continue;
     }
-    switch (expression.op) {
-      case pddl::ArithmeticOperator::add:
-        result = sum(before, *operand);
-        break;
-      case pddl::ArithmeticOperator::subtract:
-        result = sum(before, scaled(*operand, -1));
-        break;
-      case pddl::ArithmeticOperator::multiply:
-        if (!before.is_constant() && !operand->is_constant()) {
-          fail(expression.where, "a product of numbers that change is not linear",
-               "make one factor a constant");
-        }
-        result =
-            operand->is_constant() ? scaled(before, operand->constant) : scaled(*operand, before.constant);
-        break;
-      case pddl::ArithmeticOperator::divide:
-        if (!operand->is_constant()) {
-          fail(expression.where, "division by a number that changes is not linear",
-               "make the divisor a constant");
-        }
-        if (operand->constant == 0) return std::nullopt;
-        {
-          const double quotient = before.constant / operand->constant;
-          result = scaled(before, 1 / operand->constant);
-          result.constant = quotient;
-        }
-        break;
-    }
+    const auto both = combined(expression, before, *operand);
+    if (!both) return std::nullopt;
+    result = *both;
     if (result.terms.size() == before.terms.size() + operand->terms.size()) continue;
     note_cancelled(before);
     note_cancelled(*operand);

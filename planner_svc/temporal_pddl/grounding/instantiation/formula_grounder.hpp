@@ -73,6 +73,10 @@ class FormulaGrounder {
   std::optional<task::LinearExpression> linear_form(const lifted::LiftedExpression& expression,
                                                     const lifted::Binding& binding,
                                                     std::vector<task::NumberId>& cancelled);
+  // Returns what the operator of `expression` makes of two forms; nothing if it divides by zero.
+  std::optional<task::LinearExpression> combined(const lifted::LiftedExpression& expression,
+                                                 const task::LinearExpression& left,
+                                                 const task::LinearExpression& right) const;
   bool begins_with_value(task::NumberId number);
   Disjunction ground_atom(const lifted::LiftedFormula& formula, const lifted::Binding& binding) const;
   void read(const lifted::LiftedExpression& expression, const lifted::Binding& binding, bool at_end,

@@ -67,13 +67,8 @@ TEST(LongestPathStn, AgreesWithFloydAndWarshall) {
     ++consistent;
     for (std::size_t i = 0; i < network.points; ++i) {
       EXPECT_EQ(stn.longest_from(i), all[i]);
-      std::vector<Duration> to_i;
       Duration least{0};
-      for (std::size_t j = 0; j < network.points; ++j) {
-        to_i.push_back(all[j][i]);
-        least = std::max(least, all[j][i]);
-      }
-      EXPECT_EQ(stn.longest_to(i), to_i);
+      for (std::size_t j = 0; j < network.points; ++j) least = std::max(least, all[j][i]);
       EXPECT_EQ(times[i], least);  // all points start at 0 at the earliest
     }
   }

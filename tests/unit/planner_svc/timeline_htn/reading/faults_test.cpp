@@ -52,8 +52,20 @@ TEST(TimelineModelFaults, NamesAreToldWithPlaceAndRemedy) {
       {"retries: 2", "retry: 2", "unknown key 'retry'"},
       {"unstick:", "step:", "there is a behaviour 'step' already, at"},
       {"achieves: navigation.traverse(from, to)", "achieves: wheels.drive(from, to)",
-       "'wheels.drive' is simple, and a behaviour achieves a complex state"},
+       "'wheels.drive' is simple, and a behaviour achieves a complex state; name one"},
+      {"achieves: navigation.traverse(from, to)", "achieves: navigation.idle",
+       "'navigation.idle' is default, and a behaviour achieves a complex state; known: traverse"},
+      {"wheels: at(wp0)", "wheels: at(elsewhere)",
+       "'elsewhere' is no variable here and no waypoint; known: wp0, wp1"},
   });
+}
+
+// What a component has beside its fault is known, so that nobody is told that its states are missing.
+TEST(TimelineModelFaults, AComponentOfAnUnknownLayerHasItsStates) {
+  const std::string faults = faults_of(with(kSound, "layer: primitive", "layer: primitiv"));
+  EXPECT_THAT(faults,
+              HasSubstr("expected one of abstract, primitive, not 'primitiv'; did you mean 'primitive'?"));
+  EXPECT_THAT(faults, testing::Not(HasSubstr("unknown state")));
 }
 
 TEST(TimelineModelFaults, NumbersThatServicesAreAskedForAreToldWithPlaceAndRemedy) {

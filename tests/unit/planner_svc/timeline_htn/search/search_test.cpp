@@ -171,6 +171,33 @@ TEST(TimelineSearch, GoalsComeInTheirOrder) {
                                             "wheels.drive(c, d)"}));
 }
 
+// Of components that have nothing else to do with each other, too.
+TEST(TimelineSearch, AGoalBeginsWhenTheOneBeforeItHasEnded) {
+  const auto start_of_second = [](const std::string& after) {
+    const auto result = planned(model_of({R"yaml(domain: pair
+components:
+  left:
+    layer: primitive
+    states: {idle: {kind: default}, work: {kind: simple, duration_s: 10, command: {owner: sim, command: work}}}
+    transitions: [idle <-> work]
+  right:
+    layer: primitive
+    states: {idle: {kind: default}, work: {kind: simple, duration_s: 10, command: {owner: sim, command: work}}}
+    transitions: [idle <-> work]
+problem:
+  horizon_s: 500
+  initial: {left: idle, right: idle}
+  goals: {first: left.work, second: {state: right.work, after: [)yaml" +
+                                          after + "]}}\n"}));
+    EXPECT_EQ(result.outcome, Outcome::solved) << result.reason;
+    const auto times =
+        temporal::earliest_schedule(result.plan->point_count, temporal::all_constraints(*result.plan));
+    return times->at(result.find("right.work")->start_point);
+  };
+  EXPECT_GE(start_of_second("first"), seconds(10));
+  EXPECT_LT(start_of_second(""), seconds(10));
+}
+
 // The behaviour that an error triggers comes first, and the goals after it.
 TEST(TimelineSearch, AnErrorLeadsToTheBehaviourThatMendsIt) {
   const std::string mend =

@@ -43,6 +43,8 @@ TEST(NetworkFaults, AreToldWithPlaceAndRemedy) {
       {"2 * dig_s_{site} + 5", "dig_s_0 * dig_s_1", "two names in 'dig_s_0 * dig_s_1'"},
       {"2 * dig_s_{site} + 5", "2 * dig_s_{sight} + 5",
        "nothing stands for '{sight}'; known here: capacity_j, site"},
+      {"initial: \"{capacity_j}\"", "initial: capacity_j",
+       "'capacity_j' stands where only a number can; write \"{capacity_j}\""},
       {"analysis: 0.5", "analisis: 0.5", "unknown rank 'analisis'; did you mean 'analysis'?"},
       {"tier: decisional", "tier: decisive",
        "expected one of critical, decisional, mandatory, residual, not 'decisive'"},
