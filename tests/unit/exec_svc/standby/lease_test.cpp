@@ -374,7 +374,9 @@ class Disturbance {
     for (Cut& cut : cuts_) {
       if (cut.link && world_.now() >= cut.until) *std::exchange(cut.link, nullptr) = false;
     }
-    whole_ = whole_ || (world_.alive(kFirst) && world_.alive(kSecond) && world_.copy_is_near());
+    // Goals of a journal that was replaced are on one disk until they are merged.
+    whole_ = whole_ || (world_.alive(kFirst) && world_.alive(kSecond) && world_.copy_is_near() &&
+                        world_.disk(kFirst).apart.empty() && world_.disk(kSecond).apart.empty());
   }
   // All is mended, and both live.
   void heal() {
