@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/mission/entry.hpp"
+#include "core/mission/finding_report.hpp"
 #include "rehearsal/check/mission_check.hpp"
 #include "services/process/mission_folder.hpp"
 
@@ -14,12 +15,10 @@ namespace {
 
 namespace fs = std::filesystem;
 namespace check = roci::rehearsal::check;
-using roci::mission::Finding, roci::mission::Severity;
+using roci::mission::Finding;
 
 // docs/exit-codes.md lists these under "Checks".
 enum ExitCode { kNothingFound = 0, kFound = 1, kBadInput = 2, kDefect = 3 };
-
-const char* to_string(Severity severity) { return severity == Severity::error ? "error" : "warning"; }
 
 // As seen from the working folder, if it lies below.
 std::string short_name(const std::string& file) {
@@ -59,10 +58,8 @@ std::string counted(std::size_t count, const std::string& one, const std::string
 
 void print(const check::CheckReport& report, const fs::path& mission, bool why) {
   for (Finding one : report.findings.sorted()) {
-    one.what = std::string(to_string(one.severity)) + ": " + one.what;
     one.file = short_name(one.file);
-    std::cout << one.text() << "\n";
-    if (!one.remedy.empty()) std::cout << "    " << one.remedy << "\n";
+    std::cout << roci::mission::report(one);
   }
   for (const check::UnachievedKind& one : report.plans.unachieved)
     if (why)

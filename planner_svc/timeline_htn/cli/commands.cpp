@@ -10,6 +10,7 @@
 #include <set>
 #include <sstream>
 
+#include "core/mission/finding_report.hpp"
 #include "core/pddl/source.hpp"
 #include "core/temporal/execution_windows.hpp"
 #include "planner_svc/engine/function_words.hpp"
@@ -22,7 +23,7 @@
 
 namespace roci::planner::timeline_htn::cli {
 
-using mission::Finding, mission::Findings, mission::Severity;
+using mission::Finding, mission::Findings;
 using model::Model;
 using temporal::FlexiblePlan, temporal::PlanActivity;
 
@@ -32,23 +33,13 @@ std::string counted(std::size_t count, const std::string& thing) {
   return std::to_string(count) + " " + thing + (count == 1 ? "" : "s");
 }
 
-// The fault with its place, below it what to do.
-void tell(const Findings& findings, std::ostream& out) {
-  for (const Finding& finding : findings.sorted()) {
-    Finding place = finding;
-    place.what = (finding.severity == Severity::error ? "error: " : "warning: ") + finding.what;
-    out << place.text() << '\n';
-    if (!finding.remedy.empty()) out << "    " << finding.remedy << '\n';
-  }
-}
-
 nlohmann::ordered_json to_json(const Findings& findings) {
   auto out = nlohmann::ordered_json::array();
   for (const Finding& finding : findings.sorted())
     out.push_back({{"file", finding.file},
                    {"line", finding.line},
                    {"column", finding.column},
-                   {"severity", finding.severity == Severity::error ? "error" : "warning"},
+                   {"severity", mission::to_string(finding.severity)},
                    {"what", finding.what},
                    {"remedy", finding.remedy}});
   return out;
@@ -64,7 +55,7 @@ std::string seconds(temporal::Duration time) {
 std::optional<Model> load(const Files& files, const Output& output) {
   Findings findings;
   auto model = reading::load_model(files, findings);
-  tell(findings, output.errors);
+  output.errors << mission::report(findings);
   if (model && !model->problem) {
     output.errors << files.front().string()
                   << ": there is no problem in it; name the file that has one, too\n";
@@ -248,7 +239,7 @@ ExitCode check(const Files& files, const Output& output) {
     output.out << json.dump(2) << '\n';
     return model ? done : faulty;
   }
-  tell(findings, output.out);
+  output.out << mission::report(findings);
   if (!model) {
     output.out << counted(errors, "error") << ", " << counted(warnings, "warning") << '\n';
     return faulty;

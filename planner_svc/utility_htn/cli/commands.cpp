@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "core/mission/findings.hpp"
+#include "core/mission/finding_report.hpp"
 #include "planner_svc/utility_htn/cli/chain_table.hpp"
 #include "planner_svc/utility_htn/cli/first_plan.hpp"
 #include "planner_svc/utility_htn/reading/binary.hpp"
@@ -18,7 +18,7 @@
 
 namespace roci::planner::utility_htn::cli {
 
-using mission::Finding, mission::Findings, mission::Severity;
+using mission::Finding, mission::Findings;
 using model::Network;
 
 namespace {
@@ -33,20 +33,10 @@ nlohmann::ordered_json to_json(const Findings& findings) {
     out.push_back({{"file", finding.file},
                    {"line", finding.line},
                    {"column", finding.column},
-                   {"severity", finding.severity == Severity::error ? "error" : "warning"},
+                   {"severity", mission::to_string(finding.severity)},
                    {"what", finding.what},
                    {"remedy", finding.remedy}});
   return out;
-}
-
-// As roci-check does: the fault with its place, below it what to do.
-void tell(const Findings& findings, std::ostream& out) {
-  for (const Finding& finding : findings.sorted()) {
-    Finding place = finding;
-    place.what = (finding.severity == Severity::error ? "error: " : "warning: ") + finding.what;
-    out << place.text() << '\n';
-    if (!finding.remedy.empty()) out << "    " << finding.remedy << '\n';
-  }
 }
 
 bool readable(const std::filesystem::path& file, const Output& output) {
@@ -67,7 +57,7 @@ ExitCode write(const std::string& bytes, const std::filesystem::path& to, const 
 std::optional<Network> load(const std::filesystem::path& file, const Output& output) {
   Findings findings;
   auto network = reading::load_network(file, findings);
-  tell(findings, output.errors);
+  output.errors << mission::report(findings);
   return network;
 }
 
@@ -120,7 +110,7 @@ ExitCode check(const std::filesystem::path& file, const Output& output) {
     output.out << json.dump(2) << '\n';
     return network ? done : faulty;
   }
-  tell(findings, output.out);
+  output.out << mission::report(findings);
   if (!network) {
     output.out << counted(errors, "error") << ", " << counted(warnings, "warning") << '\n';
     return faulty;

@@ -9,6 +9,7 @@
 #include <fstream>
 
 #include "core/mission/entry.hpp"
+#include "core/mission/finding_report.hpp"
 
 namespace roci::mission {
 namespace {
@@ -111,6 +112,15 @@ TEST_F(CollectedFile, EndsAtTheFirstFaultWithoutACollection) {
   } catch (const FileError& error) {
     EXPECT_THAT(error.what(), HasSubstr(":3:1: unknown key 'naem'"));
   }
+}
+
+TEST(FindingReport, HasEachWithItsPlaceAndBelowItWhatToDo) {
+  Findings findings;
+  findings.add({"b.yaml", 3, 7, Severity::error, "unknown key 'naem'", "did you mean 'name'?"});
+  findings.add({"a.yaml", 0, 0, Severity::warning, "it is empty", ""});
+  EXPECT_EQ(
+      report(findings),
+      "a.yaml: warning: it is empty\nb.yaml:3:7: error: unknown key 'naem'\n    did you mean 'name'?\n");
 }
 
 }  // namespace
