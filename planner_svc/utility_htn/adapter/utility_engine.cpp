@@ -110,7 +110,12 @@ std::string UtilityEngine::learn(const std::string& parameter, double value) {
 }
 
 void UtilityEngine::hear(const StepInputs& inputs) {
-  if (inputs.executed) go_on_with(*inputs.executed, inputs.now);
+  if (inputs.executed) {
+    // It was reported before the timelines begin anew, which would take it for the past; so it counts as of now.
+    for (const engine::Observation& one : inputs.observations)
+      newest_.insert_or_assign(one.timeline, one.value);
+    go_on_with(*inputs.executed, inputs.now);
+  }
   for (const Goal& goal : inputs.goals) hear_goal(goal);
   for (const engine::EndedGoal& ended : inputs.ended_goals) hear_end(ended);
   for (const engine::Observation& observation : inputs.observations)
