@@ -111,13 +111,14 @@ Lease::Turn Lease::turn(const Position& newest, Moment now) {
   return out;
 }
 
-std::uint64_t Lease::epoch_to_lead(const Position& newest) const {
-  const bool has_lost_all = newest == Position{} && persisted_term_.epoch > 0;
+std::uint64_t Lease::epoch_to_lead(const Position& newest, Moment now) const {
+  const bool has_lost_all = newest == Position{} && persisted_term_.epoch > 0 && !persisted_term_.alone &&
+                            !right_holds(newest, now);
   return next_epoch(self_, persisted_term_.epoch + (has_lost_all ? kUntoldEpochs : 0));
 }
 
 void Lease::ask_owners(bool wanted, const Position& newest, Moment now) {
-  const std::uint64_t epoch = role_ == Role::leading ? own_epoch_ : epoch_to_lead(newest);
+  const std::uint64_t epoch = role_ == Role::leading ? own_epoch_ : epoch_to_lead(newest, now);
   request_.epoch = epoch;
   request_.leads = role_ == Role::leading;
   request_.wanted = owner_leases_.wants(wanted ? std::optional(epoch) : std::nullopt, now);
@@ -189,7 +190,7 @@ Lease::Turn Lease::lead(const Claim& claim, const Position& newest, Moment now) 
   const bool doubtful = claim.doubtful || lacks_epoch;
   if (doubtful) holds = std::max({holds, told_epoch_, persisted_term_.epoch});
   role_ = Role::leading;
-  own_epoch_ = epoch_to_lead(newest);
+  own_epoch_ = epoch_to_lead(newest, now);
   persisted_term_ = {own_epoch_, true, holds};
   most_ = {};
   replication_ = ReplicationState::alone;

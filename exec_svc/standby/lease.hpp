@@ -165,7 +165,7 @@ class Lease {
     bool doubtful = false;  ///< the other may have gone on from this journal, unheard
   };
   Turn follow(const journal::Position& newest, Moment now);
-  std::uint64_t epoch_to_lead(const journal::Position& newest) const;
+  std::uint64_t epoch_to_lead(const journal::Position& newest, Moment now) const;
   void ask_owners(bool wanted, const journal::Position& newest, Moment now);
   bool should_hand_over(Moment now) const;
   Turn lead(const Claim& claim, const journal::Position& newest, Moment now);
