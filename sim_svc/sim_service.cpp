@@ -11,6 +11,7 @@
 #include "services/owner/command_server.hpp"
 #include "services/publisher.hpp"
 #include "services/rpc.hpp"
+#include "sim_svc/run_end_service.hpp"
 #include "sim_svc/scenario/run_file.hpp"
 #include "sim_svc/wire_service.hpp"
 #include "sim_svc/world/match.hpp"
@@ -46,13 +47,9 @@ namespace {
 namespace topics = services::topics;
 namespace owner = services::owner;
 
-// So many executives are counted to know when the mission is over: one for each robot, ten times over. Beyond them
-// nobody keeps a run open.
-constexpr std::size_t kExecutives = 256;
 constexpr char kGround[] = "ground";  // who tells of hazards that the scenario states
 constexpr Duration kCallDeadline = std::chrono::seconds(30);
-constexpr Duration kFarewell = std::chrono::seconds(1);  // from the mission's outcome to the end of the run
-constexpr std::string_view kEnd = "\n]\n";               // of begun.json
+constexpr std::string_view kEnd = "\n]\n";  // of begun.json
 
 // Returns the scenario's first order of the ground; null: there is none.
 const Stimulus* first_order(const Scenario& scenario) {
@@ -93,7 +90,11 @@ class SimService final : public services::Service, private owner::Driver {
         findings_(services::advertise(node, topics::terrain_finding)),
         goals_(services::advertise(node, topics::goal)),
         network_orders_(services::advertise(node, topics::network_order)),
-        events_(services::advertise(node, topics::event)) {
+        events_(services::advertise(node, topics::event)),
+        run_end_(
+            node,
+            [this] { return stimuli_done_ == scenario_.stimuli.size() && !world_.has_data_under_way(); },
+            [this] { end("scenario.over", "the mission is over and nothing is to come"); }) {
     commands_.leave_stops_to_driver();  // the world knows its components
     // A live robot outlives the process that speaks for it. A simulated clock ends with its process.
     if (node.options().clock == services::clock::ClockMode::live && !run_folder_.empty()) {
@@ -106,11 +107,8 @@ class SimService final : public services::Service, private owner::Driver {
       begun_.open(run_folder_ / "begun.json");
       begun_ << "[" << kEnd << std::flush;
     }
-    services::subscribe(node, topics::mission_status, [this](const v1::MissionStatus& status) {
-      if (executives_.size() >= kExecutives && !executives_.contains(status.executive())) return;
-      executives_[status.executive()] = standing_of(status);
-      end_if_over();
-    });
+    services::subscribe(node, topics::mission_status,
+                        [this](const v1::MissionStatus& status) { run_end_.note(status); });
     services::subscribe(node, topics::event, [this](const v1::Event& event) {
       if (event.header().sender() != node_.options().name) order_.note(event.code(), event.text());
     });
@@ -163,7 +161,7 @@ class SimService final : public services::Service, private owner::Driver {
     record_effects();
     record_begun();
     if (kept_) kept_->keep(world_.memory());
-    end_if_over();
+    run_end_.check();
     if (wake_) node_.cancel(*wake_);
     wake_.reset();
     const auto next = world_.next_change();
@@ -277,40 +275,7 @@ class SimService final : public services::Service, private owner::Driver {
                        tell(world_.disturb(node_.now(), disturbance));
                      }},
                stimulus.what);
-    end_if_over();
-  }
-
-  // An executive's part of the mission.
-  enum class Standing { without_goals, open, over };
-
-  static Standing standing_of(const v1::MissionStatus& status) {
-    if (!status.outcome().empty()) return Standing::over;
-    const bool idle = status.phase() == v1::PHASE_IDLE && status.goals_open() == 0 &&
-                      status.goals_achieved() + status.goals_dropped() + status.goals_failed() == 0;
-    return idle ? Standing::without_goals : Standing::open;
-  }
-
-  // Some executive had goals, and none has open ones.
-  bool mission_over() const {
-    bool over = false;
-    for (const auto& [executive, standing] : executives_) {
-      if (standing == Standing::open) return false;
-      over = over || standing == Standing::over;
-    }
-    return over;
-  }
-
-  // The mission may go on when a goal arrives in the meantime. What is on its way to Earth still arrives.
-  void end_if_over() {
-    const bool over =
-        mission_over() && stimuli_done_ == scenario_.stimuli.size() && !world_.has_data_under_way();
-    if (over == farewell_.has_value()) return;
-    if (over) {
-      farewell_ = node_.after(kFarewell,
-                              [this] { end("scenario.over", "the mission is over and nothing is to come"); });
-    } else {
-      node_.cancel(*std::exchange(farewell_, std::nullopt));
-    }
+    run_end_.check();
   }
 
   void end(const std::string& code, const std::string& text) {
@@ -387,9 +352,8 @@ class SimService final : public services::Service, private owner::Driver {
   services::Publisher<v1::Event> events_;
   std::map<std::pair<std::string, std::string>, const GoalStimulus*> uploaded_;  // by issuer and id
   std::size_t stimuli_done_ = 0;
-  std::map<std::string, Standing> executives_;
   std::optional<services::Node::TimerId> wake_;
-  std::optional<services::Node::TimerId> farewell_;
+  RunEnd run_end_;
 };
 
 }  // namespace

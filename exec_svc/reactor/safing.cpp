@@ -1,6 +1,7 @@
 #include "exec_svc/reactor/safing.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace roci::exec::reactor {
 
@@ -16,13 +17,23 @@ constexpr std::uint32_t kRefusals = 8;
 }  // namespace
 
 void Safing::make_safe(temporal::Time now, const std::string& reason) {
+  begin(now, reason, "the ground");
+  unheard_ = false;
+}
+
+void Safing::make_safe_unheard(temporal::Time now, const std::string& reason) {
+  begin(now, reason, "the robot");
+  unheard_ = true;
+}
+
+void Safing::begin(temporal::Time now, const std::string& reason, const std::string& goals_wait_for) {
   state_->phase = MissionPhase::safe;
   state_->replan_wanted = false;
   plan_->restore_validity();
   plan_->cancel(now);
   send_fallbacks();
   for (const goals::GoalKey& key : state_->open_goals())
-    state_->set_goal(key, goals::GoalState::pending, "waiting for the ground: " + reason);
+    state_->set_goal(key, goals::GoalState::pending, "waiting for " + goals_wait_for + ": " + reason);
   reason_ = reason;
   awaited_ = true;
   told_ = false;
@@ -52,6 +63,10 @@ void Safing::send_fallback(const mission::Component& component) {
   command.subsystem = component.name;
   command.command_name = component.fallback;
   state_->out.commands.push_back(std::move(command));
+}
+
+bool Safing::unanswered() const {
+  return !sent_ || std::ranges::none_of(fallbacks_, [](const auto& one) { return one.second.answered; });
 }
 
 void Safing::take(const std::vector<CommandAck>& acks) {
@@ -117,7 +132,12 @@ void Safing::confirm(temporal::Time now) {
   const std::string lacks = missing();
   if (lacks.empty()) {
     awaited_ = false;
-    state_->report(Severity::error, "robot.safe", "made safe, waiting for the ground: " + reason_);
+    const bool goes_on = std::exchange(unheard_, false);
+    const char* next = goes_on ? "is heard again, and goes on: " : "made safe, waiting for the ground: ";
+    state_->report(goes_on ? Severity::warning : Severity::error, "robot.safe", next + reason_);
+    if (!goes_on || state_->goals.open().empty()) return;
+    state_->want_plan("the robot is heard again and safe");
+    state_->wake_at(now);
     return;
   }
   if (!told_) state_->report(Severity::warning, "robot.safing", "is made safe: " + reason_ + "; " + lacks);

@@ -34,10 +34,15 @@ class Safing {
   /// Begins it. `robot.safe` is reported once every fall-back was answered, no command is being cancelled and
   /// every component was observed inactive; `robot.unsafe` says what is missing after the fall-back's time.
   void make_safe(temporal::Time now, const std::string& reason);
+  /// The same for a robot that was not heard when it was to stop: nothing says that more than a pause went wrong. Once
+  /// it was seen to be safe, a plan is wanted, and the ground is not waited for.
+  void make_safe_unheard(temporal::Time now, const std::string& reason);
 
   /// Sends every component that is in an active state its fallback command, under a key of its own.
   void send_fallbacks();
   bool fallbacks_sent() const { return sent_; }
+  /// No owner has said anything to the fall-backs that were sent last, or none was sent.
+  bool unanswered() const;
   /// Those that were sent may not have been heard.
   void expect_fallbacks_again() { sent_ = false; }
 
@@ -53,10 +58,12 @@ class Safing {
 
   template <class Archive, class Self>
   static void fields(Archive& archive, Self& self) {
-    archive(self.round_, self.sent_, self.fallbacks_, self.reason_, self.awaited_, self.told_, self.safe_by_);
+    archive(self.round_, self.sent_, self.fallbacks_, self.reason_, self.awaited_, self.told_, self.safe_by_,
+            self.unheard_);
   }
 
  private:
+  void begin(temporal::Time now, const std::string& reason, const std::string& goals_wait_for);
   void send_fallback(const mission::Component&);
   void repeat_lost(temporal::Time now);
   void confirm(temporal::Time now);
@@ -72,6 +79,7 @@ class Safing {
   bool awaited_ = false;                   ///< it is not seen to be safe yet
   bool told_ = false;                      ///< operators know that it is being made safe
   std::optional<temporal::Time> safe_by_;  ///< then operators are told that it is not
+  bool unheard_ = false;                   ///< nothing else was wrong: once it is seen to be safe, it goes on
 };
 
 }  // namespace roci::exec::reactor

@@ -78,12 +78,21 @@ void StopAndReplan::continue_pause(Time now) {
       parts_.planning.begin(now);
     }
   } else if (now >= pause_deadline_) {
-    const auto active = state.beliefs.active();
-    parts_.safing.make_safe(now, active.empty() ? "what was cancelled was not answered in time"
-                                                : names_of(active) + " did not become inactive in time");
+    make_safe(now);
   } else {
     if (!stopping && !parts_.safing.fallbacks_sent()) parts_.safing.send_fallbacks();
     state.wake_at(pause_deadline_);
+  }
+}
+
+void StopAndReplan::make_safe(Time now) {
+  const auto active = parts_.state.beliefs.active();
+  const std::string late = active.empty() ? "what was cancelled was not answered in time"
+                                          : names_of(active) + " did not become inactive in time";
+  if (parts_.safing.unanswered()) {
+    parts_.safing.make_safe_unheard(now, late);
+  } else {
+    parts_.safing.make_safe(now, late);
   }
 }
 

@@ -21,10 +21,13 @@ class StopAndReplan : public ReplanningPolicy {
   /// Tells the ground (`plan.waits`) whom a wish for a plan waits for, once for each of those that are awaited.
   void tell_awaited(const std::vector<const mission::Component*>& unobserved);
   /// Calls the planner once nothing runs and every component is inactive; one that does not become inactive
-  /// in time makes the robot safe.
+  /// in time makes the robot safe: until the ground speaks, or, if nobody has answered, until the robot was seen to be
+  /// safe.
   void continue_pause(temporal::Time now);
 
  private:
+  void make_safe(temporal::Time now);
+
   PolicyParts parts_;
   temporal::Time pause_deadline_{0};  ///< for components to become inactive
 };

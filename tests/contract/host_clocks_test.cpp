@@ -23,7 +23,9 @@ namespace roci::services::contract {
 namespace {
 
 namespace fs = std::filesystem;
+using testing::ContainsRegex;
 using testing::HasSubstr;
+using testing::StartsWith;
 
 constexpr char kReference[] = "sim_svc";  // of the planetary mission: its clock's master
 
@@ -107,8 +109,8 @@ TEST_P(HostClocks, ASecondTooFastIsToldAndDegradesUntilItIsSetRight) {
   start("+1");
   ASSERT_TRUE(until([this] { return newest("clock.offset") != nullptr; }));
   const v1::Event& beyond = *newest("clock.offset");
-  EXPECT_THAT(beyond.text(), HasSubstr("science_svc: the clock is 1.0"));
-  EXPECT_THAT(beyond.text(), HasSubstr(" s ahead"));
+  EXPECT_THAT(beyond.text(), StartsWith("science_svc: the clock is "));
+  EXPECT_THAT(beyond.text(), ContainsRegex(" (0[.]9|1[.]0).* s ahead"));  // give or take what an answer took
   EXPECT_THAT(beyond.text(), HasSubstr("beyond the bound of 0.250 s"));
   EXPECT_EQ(beyond.severity_level(), v1::SEVERITY_WARNING);
   EXPECT_NEAR(std::stod(property(beyond, "offset_s")), 1, 0.2);
