@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <sstream>
 #include <utility>
 
@@ -23,10 +22,6 @@ bool is_above(double bound, double value) {
   return bound > value + 1e-9 * std::max({1.0, std::abs(bound), std::abs(value)});
 }
 
-auto arguments_in(const std::vector<FunctionCall>& calls) {
-  return [&calls](std::uint32_t index) -> const std::vector<std::string>& { return calls[index].arguments; };
-}
-
 std::string broken_bound(const FunctionCall& call, const FunctionValue& bound, const FunctionValue& exact) {
   std::ostringstream text;
   text << (exact.provenance->owner.empty() ? "the owner" : exact.provenance->owner) << " gave " << bound.value
@@ -37,22 +32,14 @@ std::string broken_bound(const FunctionCall& call, const FunctionValue& bound, c
 
 }  // namespace
 
-std::optional<std::size_t> ValueTable::Function::find(const FunctionCall& call) const {
-  const auto place = std::ranges::lower_bound(order, call.arguments, {}, arguments_in(calls));
-  if (place == order.end() || calls[*place].arguments != call.arguments) return std::nullopt;
-  return *place;
-}
-
 // What the owner cannot say at all, or proved, it would say again.
 bool ValueTable::Known::exact() const {
   return asked && (value.is_exact() || value.outcome == FunctionOutcome::unreachable);
 }
 
-// The calls of the table itself are asked, as there are many; they name no accuracy otherwise.
-std::vector<FunctionValue> ValueTable::ask(std::span<FunctionCall> calls, FunctionAccuracy accuracy) {
+std::vector<FunctionValue> ValueTable::ask(std::vector<FunctionCall> calls, FunctionAccuracy accuracy) {
   for (FunctionCall& call : calls) call.accuracy = accuracy;
   std::vector<FunctionValue> answers = owners_.evaluate(calls, cancelled_);
-  for (FunctionCall& call : calls) call.accuracy = FunctionCall{}.accuracy;
   if (answers.size() != calls.size()) answers.assign(calls.size(), FunctionValue{});
   for (FunctionValue& answer : answers)
     if (is_value(answer) && !std::isfinite(answer.value)) answer.outcome = FunctionOutcome::not_a_number;
@@ -60,15 +47,12 @@ std::vector<FunctionValue> ValueTable::ask(std::span<FunctionCall> calls, Functi
 }
 
 void ValueTable::load(Function& function, std::span<const FunctionCall> calls) {
-  function.calls.assign(calls.begin(), calls.end());
+  function.tuples = TupleSet(calls);
   function.known.resize(calls.size());
-  function.order.resize(calls.size());
-  std::iota(function.order.begin(), function.order.end(), std::uint32_t{0});
-  std::ranges::stable_sort(function.order, {}, arguments_in(function.calls));
   const bool exactly = exactly_.contains(calls.front().function);
   if (mode_ == FunctionsMode::lazy && !exactly) return;
   std::vector<FunctionValue> answers =
-      ask(function.calls, exactly ? FunctionAccuracy::exact : FunctionAccuracy::lower_bound);
+      ask({calls.begin(), calls.end()}, exactly ? FunctionAccuracy::exact : FunctionAccuracy::lower_bound);
   std::set<std::size_t> without_bound;
   for (std::size_t i = 0; i < answers.size(); ++i) {
     if (answers[i].outcome == FunctionOutcome::unknown && !answers[i].is_exact()) without_bound.insert(i);
@@ -81,10 +65,15 @@ std::vector<FunctionValue> ValueTable::evaluate(std::span<const FunctionCall> ca
                                                 const std::function<bool()>&) {
   if (calls.empty()) return {};
   Function& function = functions_[calls.front().function];
-  if (function.calls.empty()) load(function, calls);
+  if (function.tuples.empty()) load(function, calls);
   std::vector<FunctionValue> answers;
   answers.reserve(calls.size());
-  for (const FunctionCall& call : calls) answers.push_back(given(function, function.find(call).value()));
+  for (std::size_t i = 0; i < calls.size(); ++i) {  // mostly all of them, in their order
+    const std::vector<std::string>& arguments = calls[i].arguments;
+    const std::size_t place =
+        function.tuples.is_at(i, arguments) ? i : function.tuples.find(arguments).value();
+    answers.push_back(given(function, place));
+  }
   return answers;
 }
 
@@ -107,7 +96,7 @@ Refined ValueTable::refine(std::span<const FunctionCall> calls) {
   for (const FunctionCall& call : calls) {
     const auto function = functions_.find(call.function);
     if (function == functions_.end()) continue;
-    if (const auto index = function->second.find(call)) wanted[call.function].insert(*index);
+    if (const auto index = function->second.tuples.find(call.arguments)) wanted[call.function].insert(*index);
   }
   Refined total;
   for (const auto& [name, tuples] : wanted) {
@@ -122,7 +111,7 @@ Refined ValueTable::refine_all() {
   Refined total;
   for (auto& [name, function] : functions_) {
     std::set<std::size_t> all;
-    for (std::size_t i = 0; i < function.calls.size(); ++i) all.insert(all.end(), i);
+    for (std::size_t i = 0; i < function.tuples.size(); ++i) all.insert(all.end(), i);
     const Refined one = refine(function, all);
     total.asked += one.asked;
     total.changed = total.changed || one.changed;
@@ -136,11 +125,11 @@ Refined ValueTable::refine(Function& function, const std::set<std::size_t>& want
   for (const std::size_t i : wanted) {
     if (function.known[i].exact()) continue;
     tuples.push_back(i);
-    calls.push_back(function.calls[i]);
+    calls.push_back(function.tuples.call(i));
   }
   Refined refined;
   if (calls.empty()) return refined;
-  std::vector<FunctionValue> answers = ask(calls, FunctionAccuracy::exact);
+  std::vector<FunctionValue> answers = ask(std::move(calls), FunctionAccuracy::exact);
   for (std::size_t k = 0; k < tuples.size(); ++k) {
     answers[k].accuracy = FunctionAccuracy::exact;  // also of what did not come: it is not asked for again
     take_exact(function, tuples[k], std::move(answers[k]), refined);
@@ -155,7 +144,7 @@ void ValueTable::take_exact(Function& function, std::size_t index, FunctionValue
   refined.changed = refined.changed || value.outcome != before.outcome || value.value != before.value;
   if (known.asked && is_value(known.value) && known.value.accuracy == FunctionAccuracy::lower_bound &&
       is_value(value) && is_above(known.value.value, value.value) && warnings_.size() < kMostWarnings)
-    warnings_.push_back(broken_bound(function.calls[index], known.value, value));
+    warnings_.push_back(broken_bound(function.tuples.call(index), known.value, value));
   if (is_value(value)) {
     function.smallest = function.has_exact ? std::min(function.smallest, value.value) : value.value;
     function.has_exact = true;
@@ -176,10 +165,10 @@ std::vector<FunctionUse> ValueTable::take_uses() {
     count += static_cast<std::size_t>(std::ranges::count_if(function.known, &Known::asked));
   uses.reserve(count);
   for (auto& [name, function] : functions_) {
-    for (std::size_t i = 0; i < function.calls.size(); ++i) {
+    for (std::size_t i = 0; i < function.tuples.size(); ++i)
       if (function.known[i].asked)
-        uses.push_back({std::move(function.calls[i]), std::move(function.known[i].value)});
-    }
+        uses.push_back({function.tuples.call(i), std::move(function.known[i].value)});
+    function = {};
   }
   functions_.clear();
   return uses;

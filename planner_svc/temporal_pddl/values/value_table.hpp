@@ -3,16 +3,15 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <functional>
 #include <map>
-#include <optional>
 #include <set>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "planner_svc/engine/function_source.hpp"
+#include "planner_svc/temporal_pddl/values/tuple_set.hpp"
 
 namespace roci::planner::temporal_pddl::values {
 
@@ -59,17 +58,14 @@ class ValueTable final : public engine::FunctionSource {
     bool exact() const;
   };
   struct Function {
-    std::vector<engine::FunctionCall> calls;
-    std::vector<Known> known;          // of each of the calls
-    std::vector<std::uint32_t> order;  // of the calls, by their arguments
-    double smallest = 1;               // exact value
+    TupleSet tuples;
+    std::vector<Known> known;  // of each of the tuples
+    double smallest = 1;       // exact value
     bool has_exact = false;
-
-    std::optional<std::size_t> find(const engine::FunctionCall& call) const;
   };
 
   void load(Function& function, std::span<const engine::FunctionCall> calls);
-  std::vector<engine::FunctionValue> ask(std::span<engine::FunctionCall> calls,
+  std::vector<engine::FunctionValue> ask(std::vector<engine::FunctionCall> calls,
                                          temporal::FunctionAccuracy accuracy);
   void take_exact(Function& function, std::size_t index, engine::FunctionValue value, Refined& refined);
   Refined refine(Function& function, const std::set<std::size_t>& wanted);

@@ -8,6 +8,7 @@
 #include <new>
 #include <string>
 
+#include "planner_svc/temporal_pddl/values/tuple_set.hpp"
 #include "tests/unit/planner_svc/temporal_pddl/fixture.hpp"
 
 namespace {
@@ -90,6 +91,17 @@ TEST(Memory, OfAGroundActionDoesNotGrow) {
   const double each = static_cast<double>(most - before) / static_cast<double>(result.statistics.actions);
   EXPECT_LT(each, kMostBytesPerAction);
   EXPECT_GT(each, 0.7 * kMostBytesPerAction) << "it takes less now: lower the bound";
+}
+
+// A large satellite has tens of thousands of them, and a call of one takes some 200 bytes.
+TEST(Memory, OfATupleOfAFunctionIsAFewBytes) {
+  std::vector<engine::FunctionCall> calls;
+  for (int from = 0; from < 100; ++from)
+    for (int to = 0; to < 100; ++to)
+      calls.push_back({"arm", "move_time", {"s" + std::to_string(from), "s" + std::to_string(to)}});
+  const std::size_t before = taken;
+  const values::TupleSet tuples(calls);
+  EXPECT_LT(taken - before, 16 * tuples.size());
 }
 
 // Tables grow by doubling, which takes half as much again for a moment.
