@@ -100,14 +100,14 @@ void BestSupporters::fire(SnapId op) {
 }
 
 void BestSupporters::raise_numbers(SnapId op, Cost own) {
-  for (const NumericAchiever& raise : numbers_.raises(op)) {
-    const PropositionId raised = proposition(raise.comparison);
-    SnapId& producer = producers_[raise.comparison];
-    if (producer.is_none() && numbers_.whole_change(op, raise.comparison, state_) > 0) producer = op;
+  for (const ComparisonId comparison : numbers_.raises(op)) {
+    const PropositionId raised = proposition(comparison);
+    SnapId& producer = producers_[comparison];
+    if (producer.is_none() && numbers_.whole_change(op, numbers_.form(comparison), state_) > 0) producer = op;
     if (reached_[raised].cost <= own) continue;
-    const std::int64_t repeats = numbers_.repeats(raise, state_);
+    const std::int64_t repeats = numbers_.repeats(op, comparison, state_);
     const auto repeated = std::min<std::int64_t>(own + repeats - 1, BucketQueue::kMostCost);
-    if (reach(raised, static_cast<Cost>(repeated), op)) repeats_[raise.comparison] = repeats;
+    if (reach(raised, static_cast<Cost>(repeated), op)) repeats_[comparison] = repeats;
   }
 }
 

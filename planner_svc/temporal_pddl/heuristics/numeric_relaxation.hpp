@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <map>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "planner_svc/temporal_pddl/task/task.hpp"
@@ -16,11 +17,9 @@ namespace roci::planner::temporal_pddl::heuristics {
 
 using ComparisonId = task::Id<struct ComparisonTag>;
 
-/// Is an operator that may make a comparison true.
-struct NumericAchiever {
-  ComparisonId comparison;
-  task::SnapId op;
-};
+/// What comparisons have in common that differ in their constant and comparator alone: what changes one of them changes
+/// all by as much.
+using FormId = task::Id<struct FormTag>;
 
 /// Holds the comparisons of a task, numbered from 0. The task must outlive it.
 class NumericRelaxation {
@@ -36,13 +35,14 @@ class NumericRelaxation {
   }
   std::span<const task::SnapId> needed_by(ComparisonId comparison) const { return needed_by_[comparison]; }
   /// Returns, among others, every comparison that an application of `op` may make true in some state.
-  std::span<const NumericAchiever> raises(task::SnapId op) const { return raises_[op]; }
+  std::span<const ComparisonId> raises(task::SnapId op) const { return raised_[raises_[op]]; }
 
-  std::size_t bytes() const {
-    return needs_.bytes() + touches_.bytes() + needed_by_.bytes() + raises_.bytes();
-  }
-  /// Returns the comparisons that an application may change, for better or worse.
-  std::span<const ComparisonId> touches(task::SnapId op) const { return touches_[op]; }
+  std::size_t forms() const { return of_form_.size(); }
+  FormId form(ComparisonId comparison) const { return forms_[comparison]; }
+  /// Returns the forms of the comparisons that an application may change, for better or worse.
+  std::span<const FormId> touches(task::SnapId op) const { return touches_[op]; }
+
+  std::size_t bytes() const;
 
   bool holds(ComparisonId comparison, task::StateView state) const {
     return satisfies(comparison, value(comparison, state));
@@ -50,30 +50,43 @@ class NumericRelaxation {
   /// Returns the difference that is compared with 0.
   double value(ComparisonId comparison, task::StateView state) const;
   bool satisfies(ComparisonId comparison, double value) const;
-  /// Returns by how much an application in this state raises the value; 0 where that cannot be told.
-  double change(task::SnapId op, ComparisonId comparison, task::StateView state) const;
+  /// Returns by how much an application in this state raises the values of a form; 0 where that cannot be told.
+  double change(task::SnapId op, FormId form, task::StateView state) const;
   /// Returns the same of a durative action with both its ends.
-  double whole_change(task::SnapId op, ComparisonId comparison, task::StateView state) const;
+  double whole_change(task::SnapId op, FormId form, task::StateView state) const;
   /// Returns how many applications make the comparison true, which does not hold in the state; 1 if that
   /// cannot be told.
-  std::int64_t repeats(const NumericAchiever& raise, task::StateView state) const;
+  std::int64_t repeats(task::SnapId op, ComparisonId comparison, task::StateView state) const;
 
  private:
+  // Whether an operator may make all comparisons of a form true, or those alone that ask for one value.
+  using Raise = std::pair<FormId, bool>;
+
   // Returns none for comparisons that are left out.
   ComparisonId intern(const task::NumericCondition& condition);
+  void find_forms();
   void find_needs(task::SnapId op);
   void find_changes(task::SnapId op);
-  bool changed_by(task::SnapId op, const task::NumericCondition& condition) const;
+  bool raises_all(task::SnapId op, FormId form) const;
+  std::uint32_t intern_raised(std::vector<Raise> raises);
+  bool changed_by(task::SnapId op, const task::LinearExpression& expression) const;
   const task::LinearExpression& expression(ComparisonId comparison) const {
     return task_.expressions[conditions_[comparison].expression];
   }
+  // One of those that have the form.
+  const task::LinearExpression& expression(FormId form) const { return expression(of_form_[form].front()); }
 
   const task::Task& task_;
   task::IdVector<ComparisonId, task::NumericCondition> conditions_;
   std::map<task::NumericCondition, ComparisonId> ids_;
-  task::FlatLists<ComparisonId> needs_, goal_needs_, touches_;
+  task::IdVector<ComparisonId, FormId> forms_;
+  task::FlatLists<ComparisonId> of_form_;
+  task::FlatLists<ComparisonId> needs_, goal_needs_;
   task::FlatLists<task::SnapId> needed_by_;
-  task::FlatLists<NumericAchiever> raises_;
+  task::FlatLists<FormId> touches_;
+  task::FlatLists<ComparisonId> raised_;  // mostly many operators share one
+  std::map<std::vector<Raise>, std::uint32_t> raised_by_;
+  task::IdVector<task::SnapId, std::uint32_t> raises_;  // in raised_
 };
 
 }  // namespace roci::planner::temporal_pddl::heuristics

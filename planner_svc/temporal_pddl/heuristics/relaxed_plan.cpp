@@ -26,7 +26,8 @@ RelaxedPlan::RelaxedPlan(const Task& task, const RelaxedTask& relaxed, const Num
       is_needed_(relaxed.propositions(), false),
       given_(relaxed.propositions(), false),
       supports_(relaxed.propositions()),
-      balances_(numbers.comparisons()) {
+      balances_(numbers.comparisons()),
+      changes_(numbers.forms(), 0) {
   for (const Action& action : task.actions) {
     if (action.instantaneous()) continue;
     for (const FactId fact : task.adds[action.start]) {
@@ -44,7 +45,8 @@ void RelaxedPlan::begin(StateView state, const EarliestTimes* times) {
     supports_[proposition] = SnapId();
   }
   for (const PropositionId proposition : given_now_) given_[proposition] = false;
-  for (const ComparisonId comparison : touched_) balances_[comparison] = {};
+  for (const ComparisonId comparison : asked_) balances_[comparison] = {};
+  for (const FormId form : changed_) changes_[form] = 0;
   plan_.clear();
   needed_.clear();
   to_support_.clear();
@@ -52,7 +54,8 @@ void RelaxedPlan::begin(StateView state, const EarliestTimes* times) {
   to_choose_.clear();
   careful_ = false;
   given_now_.clear();
-  touched_.clear();
+  asked_.clear();
+  changed_.clear();
   to_settle_.clear();
   repeats_left_ = kMostRepeats;
 }
@@ -70,18 +73,18 @@ void RelaxedPlan::need(PropositionId proposition) {
 }
 
 void RelaxedPlan::need_before(SnapId op, ComparisonId comparison) {
-  Balance& balance = touch(comparison);
+  const bool first = !balances_[comparison].needed;
+  Balance& balance = ask(comparison);
   // Of all operators that need it and take of it, one comes last, and what that one takes need not be left.
-  const double own = numbers_.whole_change(op, comparison, state_);
-  if (!balance.needed_at_end) balance.least = balance.needed ? std::min(balance.least, own) : own;
-  balance.needed = true;
+  const double own = numbers_.whole_change(op, numbers_.form(comparison), state_);
+  if (!balance.needed_at_end) balance.least = first ? own : std::min(balance.least, own);
   queue(comparison);
 }
 
 void RelaxedPlan::need_at_end(ComparisonId comparison) {
-  Balance& balance = touch(comparison);
+  Balance& balance = ask(comparison);
   balance.least = 0;
-  balance.needed = balance.needed_at_end = true;
+  balance.needed_at_end = true;
   queue(comparison);
 }
 
@@ -189,7 +192,7 @@ void RelaxedPlan::give(SnapId op) {
 
 void RelaxedPlan::queue(ComparisonId comparison) {
   Balance& balance = balances_[comparison];
-  if (!balance.needed || balance.queued || balance.turns == kMostTurns) return;
+  if (balance.queued || balance.turns == kMostTurns) return;
   ++balance.turns;
   balance.queued = true;
   to_settle_.emplace_back(supporters_.cost(supporters_.proposition(comparison)), comparison);
@@ -200,8 +203,10 @@ void RelaxedPlan::settle(ComparisonId comparison) {
   const SnapId supporter = supporters_.supporter(supporters_.proposition(comparison));
   if (!supporter.is_none()) bring_in(supporter);
   const Balance& balance = balances_[comparison];
-  const auto surplus = [&] { return numbers_.value(comparison, state_) + balance.change - balance.least; };
-  const auto gain = [&](SnapId op) { return numbers_.whole_change(op, comparison, state_); };
+  const auto surplus = [&] {
+    return numbers_.value(comparison, state_) + changes_[numbers_.form(comparison)] - balance.least;
+  };
+  const auto gain = [&](SnapId op) { return numbers_.whole_change(op, numbers_.form(comparison), state_); };
   if (numbers_.satisfies(comparison, surplus())) return;
   const bool repeatable = !supporter.is_none() && gain(supporter) > 0;
   const SnapId producer = repeatable ? supporter : supporters_.producer(comparison);
@@ -229,18 +234,20 @@ void RelaxedPlan::repeat(SnapId op, std::int64_t times) {
 
 void RelaxedPlan::apply(SnapId op, std::int64_t times) {
   repeats_[op] += times;
-  for (const ComparisonId comparison : numbers_.touches(op)) {
-    Balance& balance = touch(comparison);
-    const double change = numbers_.change(op, comparison, state_);
-    balance.change += static_cast<double>(times) * change;
-    if (change < 0) queue(comparison);
+  for (const FormId form : numbers_.touches(op)) {
+    const double change = numbers_.change(op, form, state_);
+    changes_[form] += static_cast<double>(times) * change;
+    changed_.push_back(form);
+    if (!(change < 0)) continue;
+    for (const ComparisonId comparison : asked_)
+      if (numbers_.form(comparison) == form) queue(comparison);
   }
 }
 
-RelaxedPlan::Balance& RelaxedPlan::touch(ComparisonId comparison) {
+RelaxedPlan::Balance& RelaxedPlan::ask(ComparisonId comparison) {
   Balance& balance = balances_[comparison];
-  if (!balance.touched) touched_.push_back(comparison);
-  balance.touched = true;
+  if (!balance.needed) asked_.push_back(comparison);
+  balance.needed = true;
   return balance;
 }
 

@@ -56,12 +56,10 @@ class RelaxedPlan {
 
  private:
   struct Balance {
-    bool touched = false;
     bool needed = false, needed_at_end = false;
     bool queued = false;
     std::uint8_t turns = 0;
-    double least = 0;   // that the plan has to leave
-    double change = 0;  // by all of the plan
+    double least = 0;  // that the plan has to leave
   };
 
   void need(PropositionId proposition);
@@ -73,14 +71,14 @@ class RelaxedPlan {
   task::SnapId least_harmful(PropositionId proposition);
   std::size_t harm(task::SnapId op) const;
   void give(task::SnapId op);
-  // Queues the comparison if it is needed.
   void queue(ComparisonId comparison);
   void settle(ComparisonId comparison);
   void bring_in(task::SnapId op);
   void repeat(task::SnapId op, std::int64_t times);
   // Notes more applications of an operator.
   void apply(task::SnapId op, std::int64_t times);
-  Balance& touch(ComparisonId comparison);
+  // Returns the balance of a comparison that the plan needs.
+  Balance& ask(ComparisonId comparison);
 
   const task::Task& task_;
   const RelaxedTask& relaxed_;
@@ -97,7 +95,9 @@ class RelaxedPlan {
   std::vector<PropositionId> needed_, to_support_, to_share_, to_choose_, given_now_;
   bool careful_ = false;
   task::IdVector<ComparisonId, Balance> balances_;
-  std::vector<ComparisonId> touched_;                                  // balances in use
+  std::vector<ComparisonId> asked_;                                    // those that are needed
+  task::IdVector<FormId, double> changes_;                             // by all of the plan
+  std::vector<FormId> changed_;                                        // changes in use, some more than once
   std::vector<std::pair<BucketQueue::Cost, ComparisonId>> to_settle_;  // a heap, the dearest first
   std::int64_t repeats_left_ = 0;
 };

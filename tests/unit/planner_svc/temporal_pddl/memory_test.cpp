@@ -93,6 +93,35 @@ TEST(Memory, OfAGroundActionDoesNotGrow) {
   EXPECT_GT(each, 0.7 * kMostBytesPerAction) << "it takes less now: lower the bound";
 }
 
+// A drive from each place to each other one, with an energy of its own that the battery has to hold. Bytes of each.
+double bytes_of_a_drive(int places) {
+  std::string objects, energies;
+  for (int from = 0; from < places; ++from) {
+    objects += " p" + std::to_string(from);
+    for (int to = 0; to < places; ++to)
+      energies += " (= (energy p" + std::to_string(from) + " p" + std::to_string(to) + ") " +
+                  std::to_string(1 + from * places + to) + ")";
+  }
+  const testing::Model model = testing::model(
+      R"((:requirements :typing :numeric-fluents) (:types place) (:predicates (at ?p - place))
+    (:functions (battery) (energy ?a ?b - place))
+    (:action drive :parameters (?a ?b - place) :precondition (and (at ?a) (>= (battery) (energy ?a ?b)))
+      :effect (and (not (at ?a)) (at ?b) (decrease (battery) (energy ?a ?b)))))",
+      "(:objects" + objects + " - place) (:init (at p0) (= (battery) 100000)" + energies + ") (:goal (at p" +
+          std::to_string(places - 1) + "))");
+  NoFunctions functions;
+  Budget budget;
+  const std::size_t before = taken;
+  most = taken;
+  const Result result = plan(model.domain, model.problem, functions, budget, {});
+  EXPECT_TRUE(result.plan.has_value());
+  return static_cast<double>(most - before) / (places * (places - 1));
+}
+
+TEST(Memory, OfAnActionWithABoundOfItsOwnDoesNotGrow) {
+  EXPECT_LT(bytes_of_a_drive(80), 1.2 * bytes_of_a_drive(40));
+}
+
 // A large satellite has tens of thousands of them, and a call of one takes some 200 bytes.
 TEST(Memory, OfATupleOfAFunctionIsAFewBytes) {
   std::vector<engine::FunctionCall> calls;
