@@ -35,6 +35,11 @@ struct Link {
   friend bool operator==(const Link&, const Link&) = default;
 };
 
+/// Returns whether the link has not begun, but will.
+constexpr bool waits(const Link& link) {
+  return link.stage == Stage::planned || link.stage == Stage::committed;
+}
+
 /// Returns whether the timelines hold the link.
 constexpr bool is_placed(const Link& link) { return !is_over(link.stage) && link.stage != Stage::doomed; }
 
