@@ -10,9 +10,12 @@
 
 namespace roci::exec {
 
+namespace journal {
+class Journal;
+}
 namespace standby {
 class LeaderService;
-}
+}  // namespace standby
 
 class CommandEpoch {
  public:

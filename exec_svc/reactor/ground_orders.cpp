@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <boost/crc.hpp>
+#include <set>
 #include <utility>
 
 #include "core/mission/entry.hpp"
@@ -12,13 +13,11 @@
 namespace roci::exec::reactor {
 
 using executive::OutcomeKind;
-using executive::StepStatus;
 using orders::AutonomyLevel;
 using orders::IssuedKey;
 using orders::Order;
 using orders::OrderKind;
 using orders::OrderStage;
-using orders::OrderStatus;
 using temporal::ActivityState;
 using temporal::Time;
 

@@ -1,7 +1,5 @@
 #include "services/vendors/guard/submessages.hpp"
 
-#include <algorithm>
-
 #include "services/vendors/guard/data.hpp"
 
 namespace roci::services::vendors::guard {
