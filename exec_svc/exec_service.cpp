@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "exec_svc/command_epoch_service.hpp"
 #include "exec_svc/decision_link_service.hpp"
 #include "exec_svc/engine_link_service.hpp"
 #include "exec_svc/intake_service.hpp"
@@ -17,7 +18,7 @@
 #include "exec_svc/journal/journal.hpp"
 #include "exec_svc/journal/journaled_reactor.hpp"
 #include "exec_svc/journal/round_trips.hpp"
-#include "exec_svc/journal/salvage.hpp"
+#include "exec_svc/journal_watch_service.hpp"
 #include "exec_svc/mission_report_service.hpp"
 #include "exec_svc/order_link_service.hpp"
 #include "exec_svc/output_publisher_service.hpp"
@@ -26,10 +27,9 @@
 #include "exec_svc/run_files_service.hpp"
 #include "exec_svc/standby/goals_apart.hpp"
 #include "exec_svc/standby/leader_service.hpp"
+#include "exec_svc/step_timer_service.hpp"
 #include "exec_svc/strangers.hpp"
 #include "exec_svc/wire_service.hpp"
-#include "services/log/log.hpp"
-#include "services/owner/command.hpp"
 #include "services/process/disk_pause.hpp"
 #include "services/wire/plan_wire.hpp"
 
@@ -38,7 +38,6 @@ namespace roci::exec {
 using goals::GoalRequest;
 using journal::CrashPoints;
 using journal::Divergence;
-using journal::Durability;
 using journal::Journal;
 using journal::JournaledReactor;
 using journal::Recovery;
@@ -64,14 +63,15 @@ using services::Node;
 
 constexpr double kListenS = 2;  // wall time
 
-bool is_in_doubt(const Journal& journal) {
-  return !journal.text(journal::kDamage).empty() || !journal.text(journal::kShortened).empty();
-}
-
 CrashPoints crash_points(const Node& node) {
   const char* setting = std::getenv("ROCI_CRASH");
   return CrashPoints(setting == nullptr ? "" : setting, node.options().incarnation,
                      [] { std::raise(SIGKILL); });
+}
+
+// The supervisor of one that leads a pair hears nothing while it waits: the other one has a disk of its own.
+services::process::DiskPause disk_pause(Node& node, const LeaderService* leading) {
+  return leading == nullptr ? services::process::DiskPause(node) : services::process::DiskPause();
 }
 
 MissionModel mission_behind_links(const Node& node, const services::RunSettings& settings) {
@@ -91,7 +91,6 @@ class ExecService final : public services::Service {
         mission_(mission_behind_links(node, settings)),
         summary_file_(run_file(settings, node.options().name, services::kSummaryFile)),
         journal_(journal),
-        epoch_(epoch),
         leader_(leading),
         apart_(std::move(apart)),
         reactor_(mission_, journal_, doubtful || is_in_doubt(journal)),
@@ -101,17 +100,19 @@ class ExecService final : public services::Service {
                   {[this](const services::health::PeerChange& change) { heed(change); },
                    [this](const std::string& service, const std::string& cause) { lose(service, cause); },
                    [this](const std::string& service) { inputs_.arrivals.push_back(service); },
-                   [this] { step_soon(); }}),
+                   [this] { timer_.step_soon(); }}),
         publisher_(node, mission_, epoch, crash_),
         strangers_([this](const Event& event) { publisher_.report(event); }),
+        epoch_(node, journal, publisher_, strangers_, leading, epoch,
+               [this](std::uint64_t begun) { inputs_.epoch = begun; }),
+        journal_watch_(journal, disk_pause(node, leading),
+                       [this](const Event& event) { publisher_.report(event); }),
         decisions_(
             node, [this](GivenAnswer answer, std::string line) { take(std::move(answer), std::move(line)); }),
         orders_(
             node, [this](orders::Order order, std::string line) { take(std::move(order), std::move(line)); },
             [this](const Event& event) { intake_.tell(event); }),
         intake_(mission_, reactor_.reactor(), [this](const Event& event) { publisher_.report(event); }) {
-    journal_.wait_for_disk(
-        {[this](const std::string& cause) { wait_for_disk(cause); }, [this] { disk_is_back(); }});
     journal_.set_text("mission", std::filesystem::absolute(settings.mission).string());
     journal_.set_text("mission_file", std::filesystem::absolute(settings.mission_file()).string());
     journal_.set_text("executive", node.options().name);
@@ -122,7 +123,7 @@ class ExecService final : public services::Service {
           node, [this](temporal::PlanDelta delta) { take(std::move(delta)); },
           [this](const Event& event) { intake_.tell(event); });
     }
-    inputs_.epoch = epoch_;
+    inputs_.epoch = epoch;
     recover();
     services::subscribe(node, topics::goal, [this](const v1::Goal& goal) { take(goal); });
     services::subscribe(node, topics::observation,
@@ -132,20 +133,20 @@ class ExecService final : public services::Service {
       const reactor::ModelVersion model{offer.owner(), offer.model_version()};
       if (!intake_.admits(model)) return;
       inputs_.models.push_back(model);
-      step_soon();
+      timer_.step_soon();
     });
     node.on_peer_change([this](const services::health::PeerChange& change) { presence_.take(change); });
     if (leader_ != nullptr) join_pair();
     if (leader_ == nullptr && node.options().incarnation == 1) {
       listen_first();
     } else {
-      step_soon();
+      timer_.step_soon();
     }
   }
 
   // The one of a leader that stood down would replace its successor's.
   ~ExecService() override {
-    journal_.wait_for_disk({});
+    journal_watch_.stop();
     if (leader_ == nullptr || std::uncaught_exceptions() == 0) write_summary();
   }
 
@@ -154,7 +155,7 @@ class ExecService final : public services::Service {
   // asks again for what was under way.
   void recover() {
     const Recovery& recovery = reactor_.recovery();
-    tell_damage();
+    journal_watch_.tell_damage();
     if (!recovery.restarted) return;
     const Reactor& reactor = reactor_.reactor();
     publisher_.send_goals(reactor);
@@ -174,42 +175,8 @@ class ExecService final : public services::Service {
   // nothing. One that was started again follows itself. Under the simulated clock there is one of each name.
   void listen_first() {
     const auto& options = node_.options();
-    if (options.clock != services::clock::ClockMode::live) return step_soon();
-    step_due_ = true;
-    node_.after(temporal::seconds(kListenS * options.live_scale), [this] {
-      step_due_ = false;
-      step_soon();
-    });
-  }
-
-  // The ground has been told once the first step is durable.
-  void tell_damage() {
-    for (const auto& [name, code] : {std::pair(journal::kDamage, "journal.damaged"),
-                                     std::pair(journal::kShortened, "journal.shortened")}) {
-      const std::string text = journal_.text(name);
-      if (text.empty()) continue;
-      services::log::error(text);
-      publisher_.report({Severity::error, code, text});
-      journal_.set_text(name, "");
-    }
-  }
-
-  // What is not durable is neither acknowledged nor commanded, so nothing else can be done meanwhile. The supervisor
-  // of one that leads a pair hears nothing: the other one has a disk of its own.
-  void wait_for_disk(const std::string& cause) {
-    if (!disk_pause_.wait()) return;
-    services::log::error("exec_svc waits for its disk: " + cause);
-    publisher_.report({Severity::error, "journal.waiting",
-                       "the journal cannot be written (" + cause +
-                           "); nothing is acknowledged or commanded until it can; make room on the disk"});
-    disk_cause_ = cause;
-  }
-
-  void disk_is_back() {
-    const std::string text =
-        "the journal was written after " + std::to_string(disk_pause_.over()) + " s (" + disk_cause_ + ")";
-    services::log::warning("exec_svc goes on: " + text);
-    publisher_.report({Severity::warning, "journal.written", text});
+    if (options.clock != services::clock::ClockMode::live) return timer_.step_soon();
+    timer_.step_first_after(temporal::seconds(kListenS * options.live_scale));
   }
 
   void report_divergence(const Divergence& divergence) {
@@ -258,7 +225,7 @@ class ExecService final : public services::Service {
     if (!intake_.admits(goal.request, inputs_.goals, node_.now())) return;
     inputs_.handed_over.push_back(std::move(goal));
     crash_.pass("after-hand-over");
-    step_soon();
+    timer_.step_soon();
   }
 
   // A goal that goes to another executive is recalled here.
@@ -271,7 +238,7 @@ class ExecService final : public services::Service {
     if (!intake_.admits(request, inputs_.goals, node_.now())) return;
     inputs_.goals.push_back(std::move(request));
     crash_.pass("after-goal");
-    step_soon();
+    timer_.step_soon();
   }
 
   void heed(const services::health::PeerChange& change) {
@@ -303,12 +270,12 @@ class ExecService final : public services::Service {
       return;
     }
     seen_.push_back(trace_line(observation));
-    step_soon();
+    timer_.step_soon();
   }
 
   void take(temporal::PlanDelta delta) {
     inputs_.deltas.push_back(std::move(delta));
-    step_soon();
+    timer_.step_soon();
   }
 
   void take(const v1::CommandAck& ack) {
@@ -316,53 +283,19 @@ class ExecService final : public services::Service {
     if (ack.header().sender() != ack.owner())
       return strangers_.tell("ack.foreign",
                              ack.header().sender() + " acknowledges commands in the place of " + ack.owner());
-    if (ack.refused_epoch() && !take_refusal(ack)) return;
+    if (ack.refused_epoch() && !epoch_.take_refusal(ack)) return;
     if (OutputPublisher::answers_epoch(ack)) return;
     inputs_.acks.push_back(from_wire(ack));
     seen_.push_back(trace_line(ack));
     crash_.pass("after-ack");
-    step_soon();
-  }
-
-  // An owner refused the epoch of a command. Returns whether what was refused is to be said again, in the epoch
-  // that has begun by then.
-  bool take_refusal(const v1::CommandAck& ack) {
-    const std::uint64_t held = ack.newest_epoch();
-    const bool leads = OutputPublisher::answers_epoch(ack);
-    if (!leads && !publisher_.answers_command(ack)) return false;  // of an earlier leader, or of nobody
-    if (held >= epoch_) {
-      if (leader_ != nullptr) {
-        leader_->refused(held);
-      } else if (!leads) {
-        take_epoch(ack);
-      }
-    } else if (epoch_ - held > services::owner::kEpochJump && !publisher_.climb(ack.owner(), held)) {
-      strangers_.tell("epoch.refused", ack.owner() + " holds epoch " + std::to_string(held) +
-                                           ", too far before " + std::to_string(epoch_));
-    }
-    return !leads;
-  }
-
-  // The journal was lost, or somebody has commanded in this name: the epoch after the owner's is this executive's,
-  // in the journal before anything goes out in it. One word of an owner moves it by a bounded step.
-  void take_epoch(const v1::CommandAck& ack) {
-    const std::uint64_t held = ack.newest_epoch();
-    const std::uint64_t before = epoch_;
-    epoch_ = std::min(held, epoch_ + services::owner::kEpochJump) + 1;
-    journal_.set_number("epoch", static_cast<std::int64_t>(epoch_));
-    publisher_.begin_epoch(epoch_);
-    inputs_.epoch = epoch_;
-    publisher_.report({Severity::warning, "epoch.taken",
-                       ack.owner() + " holds epoch " + std::to_string(held) + " of " + node_.options().name +
-                           ", later than " + std::to_string(before) + "; goes on in epoch " +
-                           std::to_string(epoch_)});
+    timer_.step_soon();
   }
 
   void take(GivenAnswer answer, std::string line) {
     if (!intake_.admits(answer)) return;
     inputs_.answers.push_back(std::move(answer));
     seen_.push_back(std::move(line));
-    step_soon();
+    timer_.step_soon();
   }
 
   void take(orders::Order order, std::string line) {
@@ -370,22 +303,15 @@ class ExecService final : public services::Service {
     inputs_.ground_orders.push_back(std::move(order));
     seen_.push_back(std::move(line));
     crash_.pass("after-order");
-    step_soon();
-  }
-
-  void step_soon() {
-    if (step_due_) return;
-    step_due_ = true;
-    node_.at(node_.now(), [this] { step(); });
+    timer_.step_soon();
   }
 
   void step() {
-    step_due_ = false;
     crash_.pass("before-write-ahead");
     const ReactorOutputs out =
         reactor_.step(node_.now(), std::exchange(inputs_, {}), std::exchange(seen_, {}));
     crash_.pass("after-write-ahead");
-    if (out.wake) wake_at(*out.wake);
+    if (out.wake) timer_.step_at(*out.wake);
     if (apart_) std::exchange(apart_, std::nullopt)->remove();  // all of it stands in the journal now
     const Reactor& reactor = reactor_.reactor();
     if (leader_ != nullptr && out.adopted) lead_owners();
@@ -399,14 +325,6 @@ class ExecService final : public services::Service {
     };
     if (leader_ == nullptr) return send_all();
     leader_->send_once_copied(std::move(send_all), !out.commands.empty());
-  }
-
-  void wake_at(temporal::Time time) {
-    if (wake_timer_) node_.cancel(*wake_timer_);
-    wake_timer_ = node_.at(std::max(time, node_.now()), [this] {
-      wake_timer_.reset();
-      step_soon();
-    });
   }
 
   void send(const ReactorOutputs& out, std::uint32_t version, const std::vector<PlannedAction>& actions) {
@@ -429,13 +347,13 @@ class ExecService final : public services::Service {
   void take(PlanReply reply) {
     inputs_.reply = std::move(reply);
     crash_.pass("after-answer");
-    step_soon();
+    timer_.step_soon();
   }
 
   void write_summary() const {
     exec::write_summary(summary_file_, settings_, mission_, reactor_.reactor(),
                         {planner_.slowest_call_s(), planner_.peak_mib(), temporal::to_seconds(node_.now()),
-                         reactor_.trace_sha256(), journal_.file(), epoch_});
+                         reactor_.trace_sha256(), journal_.file(), epoch_.number()});
   }
 
   Node& node_;
@@ -444,7 +362,6 @@ class ExecService final : public services::Service {
   // It is named while the mission file is there; the destructor reads nothing any more.
   std::filesystem::path summary_file_;
   Journal& journal_;
-  std::uint64_t epoch_;
   LeaderService* leader_;            // none: no other executive follows
   std::optional<GoalsApart> apart_;  // until the first step has taken them in
   JournaledReactor reactor_;
@@ -452,54 +369,25 @@ class ExecService final : public services::Service {
   TimelineSources sources_;
   ReactorInputs inputs_;
   std::vector<std::string> seen_;  // the inputs' lines of the trace
-  bool step_due_ = false;
-  std::optional<Node::TimerId> wake_timer_;
-  services::process::DiskPause disk_pause_{leader_ == nullptr ? services::process::DiskPause(node_)
-                                                              : services::process::DiskPause()};
-  std::string disk_cause_;  // why it was waited for
+  StepTimer timer_{node_, [this] { step(); }};
 
   std::optional<EngineLink> engine_;  // one that plans all the time
   PlannerLink planner_;
   OwnersPresence presence_;
   OutputPublisher publisher_;
   Strangers strangers_;
+  CommandEpoch epoch_;
+  JournalWatch journal_watch_;
   DecisionLink decisions_;
   OrderLink orders_;
   Intake intake_;
 };
 
-// With a journal of its own.
-class LoneExecutive final : public services::Service {
- public:
-  LoneExecutive(Node& node, const services::RunSettings& settings)
-      : journal_(usable_journal(run_file(settings, node.options().name, journal::kJournalFile),
-                                services::process::DiskPause(node)),
-                 node.options().clock == services::clock::ClockMode::live ? Durability::power
-                                                                          : Durability::process),
-        executive_(node, settings, journal_, next_epoch(node), nullptr, false) {}
-
- private:
-  // The executive itself waits for the disk once it is there.
-  std::uint64_t next_epoch(Node& node) {
-    const auto pause = std::make_shared<services::process::DiskPause>(node);
-    journal_.wait_for_disk({[pause](const std::string& cause) {
-                              if (pause->wait())
-                                services::log::error("exec_svc waits for its disk before it begins: " +
-                                                     cause);
-                            },
-                            nullptr});
-    journal_.watch_extent();
-    return journal_.next_epoch();
-  }
-
-  Journal journal_;
-  ExecService executive_;
-};
-
 }  // namespace
 
-std::unique_ptr<services::Service> make_service(Node& node, const services::RunSettings& settings) {
-  return std::make_unique<LoneExecutive>(node, settings);
+std::unique_ptr<services::Service> make_executive(Node& node, const services::RunSettings& settings,
+                                                  Journal& journal, std::uint64_t epoch) {
+  return std::make_unique<ExecService>(node, settings, journal, epoch, nullptr, false);
 }
 
 std::unique_ptr<services::Service> make_executive(Node& node, const services::RunSettings& settings,

@@ -20,8 +20,9 @@ void for_each_line(const std::filesystem::path& file,
   }
 }
 
-// What a deed was done to; an activity of a plan, whose number is another one in each flight, is nothing to compare.
-std::string deed_of(const nlohmann::json& effect) {
+// Names the effect with what it was done to; an activity of a plan, whose number is another one in each flight, is
+// nothing to compare.
+std::string name_of(const nlohmann::json& effect) {
   const std::string object = effect.value("object", "");
   const bool activity = object.find('#') != std::string::npos || object == effect.value("activity", "");
   return effect.value("kind", "") + (object.empty() || activity ? "" : " " + object);
@@ -42,7 +43,7 @@ void Statistics::add(const std::filesystem::path& run_folder, const std::string&
   ++results_[result];
   std::set<std::string> done, received;
   for_each_line(run_folder / "effects.jsonl",
-                [&](const nlohmann::json& effect) { done.insert(deed_of(effect)); });
+                [&](const nlohmann::json& effect) { done.insert(name_of(effect)); });
   for_each_line(run_folder / "products.jsonl", [&](const nlohmann::json& product) {
     if (product.value("fate", "") == "received") received.insert(product.value("kind", ""));
   });

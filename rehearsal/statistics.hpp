@@ -1,5 +1,5 @@
-// What several flights of a mission have in common: how often each deed was done and each kind of data came home (R119:
-// predict by flying many).
+// What several flights of a mission have in common: how often each effect came about and each kind of data came home
+// (R119: predict by flying many).
 #pragma once
 
 #include <cstddef>
@@ -10,16 +10,16 @@
 
 namespace roci::rehearsal {
 
-/// Counts flights by what the world wrote of them. A flight counts once for each deed, however often it was done in it.
+/// Counts flights by what the world wrote of them. A flight counts once for each effect, however often it came about.
 class Statistics {
  public:
   /// Reads the run folder of a flight that has ended; a file that the world did not write counts as empty, and a line
   /// that is none is left out.
   void add(const std::filesystem::path& run_folder, const std::string& result);
 
-  /// Returns sentences, a line each: results, deeds, data; the most frequent first.
+  /// Returns sentences, a line each: results, effects, data; the most frequent first.
   std::string text() const;
-  /// Holds `results`, `done` and `received`: the number of flights by result, by "deed object" and by kind of data.
+  /// Holds `results`, `done` and `received`: the number of flights by result, by "kind object" and by kind of data.
   nlohmann::json json() const;
 
  private:

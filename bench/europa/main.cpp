@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -178,76 +179,111 @@ json variant(const Experiment& experiment, const model::Network& network, const 
   return out;
 }
 
+// The command line. What is not given stays as the settings' file says.
+struct CommandLine {
+  std::string network_file = "missions/europa/network.yaml";
+  std::string settings_file = "bench/europa/experiments.yaml";
+  Wanted wanted;
+  int runs = 0;
+  std::vector<double> biases;
+  std::optional<double> ground_j, replanning_j, discovery_share, discovery_utility;
+  std::vector<std::string> without;
+  bool robust = false, downlinks = false, no_prescient = false;
+  std::string failure;
+  std::optional<double> look_days;
+  std::vector<std::string> look_for;
+};
+
+void add_what_is_flown(CLI::App& app, CommandLine& line) {
+  app.add_option("--network", line.network_file, "the network that is flown")->capture_default_str();
+  app.add_option("--settings", line.settings_file, "probabilities and costs")->capture_default_str();
+  app.add_option("--runs", line.runs, "flights of each strategy and bias (default: those of the settings)");
+  app.add_option("--seed", line.wanted.first, "of the first flight")->capture_default_str();
+  app.add_option("--bias", line.biases,
+                 "share by which tasks take more than the network says (default: those of the settings)");
+  app.add_option("--strategy", line.wanted.strategies, "those that are flown (default: all)")
+      ->check(CLI::IsMember({"static", "ground", "fe", "replan"}));
+  app.add_option("--failure", line.failure,
+                 "TASK=none|flexible|replanning|ground: only the first execution of this task fails, and "
+                 "energies are the model's");
+}
+
+void add_costs_and_discoveries(CLI::App& app, CommandLine& line) {
+  app.add_option("--ground-j", line.ground_j, "c_g, instead of that of the settings")
+      ->check(CLI::NonNegativeNumber);
+  app.add_option("--replanning-j", line.replanning_j, "c_r")->check(CLI::NonNegativeNumber);
+  app.add_option("--discovery-share", line.discovery_share, "share of analyses that find something")
+      ->check(CLI::Range(0.0, 1.0));
+  app.add_option("--discovery-utility", line.discovery_utility, "u_d")->check(CLI::NonNegativeNumber);
+}
+
+void add_what_the_planner_does(CLI::App& app, CommandLine& line) {
+  app.add_option("--without", line.without,
+                 "what replanning does without: retry (what it resolves is planned anew), repair, optimize, "
+                 "learning, "
+                 "discovery")
+      ->check(CLI::IsMember({"retry", "repair", "optimize", "learning", "discovery"}));
+  app.add_flag("--robust", line.robust,
+               "replanning judges plans by the worst of more, less and predicted energy");
+  app.add_flag("--downlinks", line.downlinks, "the Downlink Manager is asked");
+}
+
+void add_what_is_told(CLI::App& app, CommandLine& line) {
+  app.add_flag("--no-prescient", line.no_prescient,
+               "leaves out what a planner brings home that knows everything");
+  app.add_flag("--executions", line.wanted.executions, "tells every attempt of every task");
+  app.add_option("--look-days", line.look_days, "tells what is projected then")
+      ->check(CLI::NonNegativeNumber);
+  app.add_option("--look-for", line.look_for, "and when these tasks could start");
+}
+
+Setting setting_of(const CommandLine& line) {
+  Setting setting = read_setting(line.settings_file);
+  if (line.runs > 0) setting.runs = line.runs;
+  if (!line.biases.empty()) setting.biases = line.biases;
+  setting.costs.ground_j = line.ground_j.value_or(setting.costs.ground_j);
+  setting.costs.replanning_j = line.replanning_j.value_or(setting.costs.replanning_j);
+  setting.discovery_share = line.discovery_share.value_or(setting.discovery_share);
+  setting.discovery_utility = line.discovery_utility.value_or(setting.discovery_utility);
+  setting.without.insert(line.without.begin(), line.without.end());
+  setting.robust = line.robust;
+  setting.downlinks = line.downlinks;
+  if (line.look_days) setting.look_at = temporal::seconds(86400 * *line.look_days);
+  setting.look_for = line.look_for;
+  if (!line.failure.empty()) setting.only_failure = failure_of(line.failure);
+  return setting;
+}
+
+json fly_all(const CommandLine& line) {
+  const auto network = planner::utility_htn::reading::load_network(std::filesystem::path(line.network_file));
+  const Setting setting = setting_of(line);
+  Wanted wanted = line.wanted;
+  wanted.prescient = !line.no_prescient;
+  const Experiment experiment(network, setting);
+  json out{{"network", line.network_file},
+           {"runs", setting.runs},
+           {"first_seed", wanted.first},
+           {"budget", network.timelines[network.budget].initial},
+           {"variants", json::array()}};
+  for (const double bias : setting.biases)
+    out["variants"].push_back(variant(experiment, network, setting, wanted, bias));
+  return out;
+}
+
 }  // namespace
 }  // namespace roci::bench::europa
 
 int main(int argc, char** argv) {
   using namespace roci::bench::europa;
   CLI::App app{"Flies the experiments of MEXEC, section V.A"};
-  std::string network_file = "missions/europa/network.yaml", settings_file = "bench/europa/experiments.yaml";
-  int runs = 0;
-  Wanted wanted;
-  std::vector<double> biases;
-  std::vector<std::string> without;
-  bool robust = false, downlinks = false, no_prescient = false;
-  std::optional<double> ground_j, replanning_j, discovery_share, discovery_utility;
-  app.add_option("--network", network_file, "the network that is flown")->capture_default_str();
-  app.add_option("--settings", settings_file, "probabilities and costs")->capture_default_str();
-  app.add_option("--runs", runs, "flights of each strategy and bias (default: those of the settings)");
-  app.add_option("--seed", wanted.first, "of the first flight")->capture_default_str();
-  app.add_option("--bias", biases,
-                 "share by which tasks take more than the network says (default: those of the settings)");
-  app.add_option("--strategy", wanted.strategies, "those that are flown (default: all)")
-      ->check(CLI::IsMember({"static", "ground", "fe", "replan"}));
-  app.add_option("--ground-j", ground_j, "c_g, instead of that of the settings")
-      ->check(CLI::NonNegativeNumber);
-  app.add_option("--replanning-j", replanning_j, "c_r")->check(CLI::NonNegativeNumber);
-  app.add_option("--discovery-share", discovery_share, "share of analyses that find something")
-      ->check(CLI::Range(0.0, 1.0));
-  app.add_option("--discovery-utility", discovery_utility, "u_d")->check(CLI::NonNegativeNumber);
-  app.add_option("--without", without,
-                 "what replanning does without: retry (what it resolves is planned anew), repair, optimize, "
-                 "learning, "
-                 "discovery")
-      ->check(CLI::IsMember({"retry", "repair", "optimize", "learning", "discovery"}));
-  app.add_flag("--robust", robust, "replanning judges plans by the worst of more, less and predicted energy");
-  app.add_flag("--downlinks", downlinks, "the Downlink Manager is asked");
-  app.add_flag("--no-prescient", no_prescient, "leaves out what a planner brings home that knows everything");
-  app.add_flag("--executions", wanted.executions, "tells every attempt of every task");
-  std::string failure;
-  app.add_option("--failure", failure,
-                 "TASK=none|flexible|replanning|ground: only the first execution of this task fails, and "
-                 "energies are the model's");
-  std::optional<double> look_days;
-  std::vector<std::string> look_for;
-  app.add_option("--look-days", look_days, "tells what is projected then")->check(CLI::NonNegativeNumber);
-  app.add_option("--look-for", look_for, "and when these tasks could start");
+  CommandLine line;
+  add_what_is_flown(app, line);
+  add_costs_and_discoveries(app, line);
+  add_what_the_planner_does(app, line);
+  add_what_is_told(app, line);
   CLI11_PARSE(app, argc, argv);
   try {
-    const auto network =
-        roci::planner::utility_htn::reading::load_network(std::filesystem::path(network_file));
-    Setting setting = read_setting(settings_file);
-    if (runs > 0) setting.runs = runs;
-    if (!biases.empty()) setting.biases = biases;
-    setting.costs.ground_j = ground_j.value_or(setting.costs.ground_j);
-    setting.costs.replanning_j = replanning_j.value_or(setting.costs.replanning_j);
-    setting.discovery_share = discovery_share.value_or(setting.discovery_share);
-    setting.discovery_utility = discovery_utility.value_or(setting.discovery_utility);
-    setting.without.insert(without.begin(), without.end());
-    setting.robust = robust;
-    setting.downlinks = downlinks;
-    wanted.prescient = !no_prescient;
-    if (look_days) setting.look_at = roci::temporal::seconds(86400 * *look_days);
-    setting.look_for = look_for;
-    if (!failure.empty()) setting.only_failure = failure_of(failure);
-    const Experiment experiment(network, setting);
-    json out{{"network", network_file},
-             {"runs", setting.runs},
-             {"first_seed", wanted.first},
-             {"budget", network.timelines[network.budget].initial},
-             {"variants", json::array()}};
-    for (const double bias : setting.biases)
-      out["variants"].push_back(variant(experiment, network, setting, wanted, bias));
+    const json out = fly_all(line);
     std::fprintf(stderr, "\n");
     std::cout << out.dump(1) << '\n';
   } catch (const std::exception& error) {

@@ -20,10 +20,4 @@ bool speaks_of_goals(Verdict verdict) {
   return verdict == Verdict::unsolvable || verdict == Verdict::timeout || verdict == Verdict::out_of_memory;
 }
 
-std::optional<Verdict> verdict_named(std::string_view name) {
-  for (std::size_t i = 0; i < kNames.size(); ++i)
-    if (name == kNames[i]) return static_cast<Verdict>(i);
-  return std::nullopt;
-}
-
 }  // namespace roci::temporal

@@ -3,8 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
-#include <string_view>
 
 namespace roci::temporal {
 
@@ -28,8 +26,5 @@ const char* to_string(Verdict verdict);
 /// Returns whether it says something about the goals (they do not fit, or no way was found within the budget)
 /// rather than about the services or the input.
 bool speaks_of_goals(Verdict verdict);
-
-/// Returns the verdict of that name, or nothing for any other text.
-std::optional<Verdict> verdict_named(std::string_view name);
 
 }  // namespace roci::temporal

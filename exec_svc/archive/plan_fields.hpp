@@ -43,7 +43,8 @@ void fields(A& a, Of<temporal::PlanCommand, A>& v) {
 }
 template <class A>
 void fields(A& a, Of<temporal::PlanActivity, A>& v) {
-  a(v.id, v.name, v.level, v.parent, v.owner, v.robot, v.subsystem, v.command_name, v.arguments, v.answer_within);
+  a(v.id, v.name, v.level, v.parent, v.owner, v.robot, v.subsystem, v.command_name, v.arguments,
+    v.answer_within);
   a(v.then, v.start_point, v.end_point, v.duration_lower, v.duration_upper, v.preferred_start);
   a(v.pre, v.maintenance, v.post, v.impacts, v.wait_timeout, v.retries, v.may_skip, v.skip_if, v.lateness);
   a(v.commit, v.failure, v.contingency, v.priority, v.goals_served, v.utility);

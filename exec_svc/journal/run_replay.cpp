@@ -1,7 +1,7 @@
 #include "exec_svc/journal/run_replay.hpp"
 
-#include "exec_svc/reactor/message_fields.hpp"
 #include "exec_svc/journal/trace.hpp"
+#include "exec_svc/reactor/message_fields.hpp"
 
 namespace roci::exec::journal {
 

@@ -171,6 +171,9 @@ struct ReactorSettings {
   temporal::Duration standby_term = temporal::seconds(2);      ///< wall time; see standby/lease.hpp
   /// Not of the mission, but of the scenario's links (executive::ExecutiveSettings).
   std::map<std::string, temporal::Duration> round_trips{};
+
+  /// Returns whether the engine sends versions of its plan all the time, and is never called.
+  bool plans_continuously() const { return replanning == Replanning::continuous; }
 };
 
 /// What the ground may change in flight by an order.

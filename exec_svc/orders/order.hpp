@@ -51,7 +51,7 @@ struct OrderStatus {
   IssuedKey key;
   goals::SampleId answers;  ///< the newest sample that brought it
   OrderStage stage = OrderStage::received;
-  std::string reason{};              ///< of a refusal; else what was done, in plain words
+  std::string reason{};            ///< of a refusal; else what was done, in plain words
   std::uint32_t plan_version = 0;  ///< with applied: the plan in which it takes effect
 };
 

@@ -25,6 +25,8 @@ namespace roci::exec::reactor {
 class ConflictMonitor {
  public:
   ConflictMonitor() = default;
+  ConflictMonitor(ConflictMonitor&&) = default;  ///< A copy would point into the original.
+  ConflictMonitor& operator=(ConflictMonitor&&) = default;
   /// At first all activities wait. `foreseen`: timelines that change by themselves, as their timed windows
   /// say; no alarm for them. `lasting`: for how long a conflict must stand.
   ConflictMonitor(const temporal::FlexiblePlan& plan, const std::set<std::string>& foreseen,

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "exec_svc/problem/problem_writer.hpp"
-
 namespace roci::exec::reactor {
 
 using goals::GoalClass;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <boost/crc.hpp>
+#include <set>
 #include <utility>
 
 #include "core/mission/entry.hpp"
@@ -12,13 +13,11 @@
 namespace roci::exec::reactor {
 
 using executive::OutcomeKind;
-using executive::StepStatus;
 using orders::AutonomyLevel;
 using orders::IssuedKey;
 using orders::Order;
 using orders::OrderKind;
 using orders::OrderStage;
-using orders::OrderStatus;
 using temporal::ActivityState;
 using temporal::Time;
 
@@ -215,7 +214,7 @@ GroundOrders::Ruling GroundOrders::command(Time now, const Order& order) {
 }
 
 std::string GroundOrders::fault_of_commanding() const {
-  if (state_->mission->executive.replanning == mission::Replanning::continuous)
+  if (state_->mission->executive.plans_continuously())
     return "an engine plans all the time here; ask it by a goal";
   if (state_->authority.held()) return "everything is held; end that first (roci order release)";
   if (state_->phase == MissionPhase::pausing || state_->phase == MissionPhase::planning)

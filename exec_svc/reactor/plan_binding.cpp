@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <vector>
 
 #include "core/temporal/activity_timeline.hpp"
 #include "exec_svc/mission/template_text.hpp"

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "core/temporal/flexible_plan.hpp"
 #include "exec_svc/beliefs/beliefs.hpp"

@@ -80,12 +80,11 @@ void PlanRecovery::handle_failure(Time now, const Outcome& outcome) {
   if (!state_->replan_wanted) return;
   if (outcome.breakage == Breakage::activity_failed) {
     count_failure(now, outcome);
-  } else if (outcome.breakage != Breakage::refused_for_good) {
-    count_break(now, outcome.activity, "outcome");
-  }
-  if (outcome.breakage == Breakage::refused_for_good) {
+  } else if (outcome.breakage == Breakage::refused_for_good) {
     state_->give_up(goals_behind(plan_->executive().plan(), outcome.activity, state_->goals),
                     outcome.activity + " will never be taken: " + outcome.reason);
+  } else {
+    count_break(now, outcome.activity, "outcome");
   }
 }
 

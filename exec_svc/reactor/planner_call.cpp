@@ -14,6 +14,10 @@ namespace {
 /// shows in the execution.
 constexpr std::uint32_t kStaleLimit = 5;
 
+/// Before the next call after one that failed; doubled with each failure in a row, so often at most.
+constexpr double kFirstPauseS = 10;
+constexpr std::uint32_t kMostDoublings = 4;
+
 constexpr char kModelChanged[] = "a map or arm model changed";
 
 }  // namespace
@@ -104,7 +108,8 @@ std::string PlannerCall::away() const {
 
 bool PlannerCall::back_off(Time now) {
   if (++failures_ > state_->mission->executive.call_retries) return false;
-  not_before_ = now + temporal::seconds(5.0 * static_cast<double>(1U << std::min(failures_, 5U)));
+  const std::uint32_t doublings = std::min(failures_ - 1, kMostDoublings);
+  not_before_ = now + temporal::seconds(kFirstPauseS * static_cast<double>(1U << doublings));
   return true;
 }
 

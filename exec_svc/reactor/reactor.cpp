@@ -19,7 +19,6 @@ using goals::GoalRecord;
 using goals::GoalSet;
 using goals::GoalState;
 using mission::MissionModel;
-using mission::Replanning;
 using temporal::Time;
 
 struct Reactor::Parts {

@@ -5,7 +5,6 @@ namespace roci::exec::reactor {
 using executive::ExecutiveSettings;
 using mission::MissionModel;
 using mission::RecoveryStrategy;
-using mission::Replanning;
 
 RecoveryPolicy recovery_policy_of(RecoveryStrategy strategy) {
   switch (strategy) {
@@ -38,7 +37,7 @@ ExecutiveSettings executive_settings(const MissionModel& mission) {
   settings.cancel_timeout = mission.executive.ack_timeout;
   settings.round_trips = mission.executive.round_trips;
   settings.start = mission.executive.start;
-  settings.only_committed = mission.executive.replanning == Replanning::continuous;
+  settings.only_committed = mission.executive.plans_continuously();
   settings.contingencies = mission.contingencies;
   for (const auto& [name, binding] : mission.actions)
     if (temporal::bounded(binding.retry_within)) settings.retry_within[name] = binding.retry_within;

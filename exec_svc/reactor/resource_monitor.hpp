@@ -17,15 +17,16 @@
 namespace roci::exec::reactor {
 
 /// For every numeric timeline that the plan's activities change by a known amount for good, and in no other way (what
-/// is given back at an activity's end is waited for): the
-/// range in which its value must lie now, so that the pre conditions of all waiting activities hold in plan
-/// order. Nobody sees how much of it the first attempt of a running activity has taken or given already: it may still
-/// do any part of what was planned, and whatever part would do is reckoned with, so that no alarm is false: at the
-/// start of a drive it may have taken all its energy, or none. So what is lost beside it is missed once less is left
-/// than what follows needs, at its end at the latest; reckoning by the time that has passed would miss it sooner,
-/// and raise false alarms where a drive takes most in its first metres. What another attempt will take counts until it
-/// is seen. An activity that waits no more costs the logarithm of the plan's length, a check two comparisons for each
-/// timeline.
+/// is given back at an activity's end is waited for): the range in which its value must lie now, so that the pre
+/// conditions of all waiting activities hold in plan order.
+///
+/// Nobody sees how much of it the first attempt of a running activity has taken or given already: it may still do any
+/// part of what was planned, and whatever part would do is reckoned with, so that no alarm is false: at the start of a
+/// drive it may have taken all its energy, or none. So what is lost beside it is missed once less is left than what
+/// follows needs, at its end at the latest; reckoning by the time that has passed would miss it sooner, and raise false
+/// alarms where a drive takes most in its first metres. What another attempt will take counts until it is seen.
+///
+/// An activity that waits no more costs the logarithm of the plan's length, a check two comparisons for each timeline.
 class ResourceMonitor {
  public:
   ResourceMonitor() = default;

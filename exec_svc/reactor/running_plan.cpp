@@ -100,13 +100,13 @@ void RunningPlan::step(Time now, const ReactorInputs& inputs) {
 // that the next activity changes at the same time.
 void RunningPlan::conclude(const std::vector<StepStatus>& changes, Time now) {
   // An engine that plans all the time keeps such timelines itself.
-  const bool engine_knows = state_->mission->executive.replanning == mission::Replanning::continuous;
+  const bool engine_knows = state_->mission->executive.plans_continuously();
   for (const StepStatus& step : changes) {
     const temporal::PlanActivity* const activity = executive_.activity(step.activity);
     if (activity == nullptr || !activity->owner.empty() || !step.started) continue;
     const bool succeeded = step.state == temporal::ActivityState::succeeded;
     bool news = false;
-    const auto conclude = [&](const std::string& timeline, const std::optional<temporal::Value>& value) {
+    const auto note = [&](const std::string& timeline, const std::optional<temporal::Value>& value) {
       if (!state_->beliefs.conclude(timeline, value)) return;
       news = true;
       if (!engine_knows) state_->out.concluded.push_back({timeline, value.value_or(temporal::Value{})});
@@ -114,9 +114,9 @@ void RunningPlan::conclude(const std::vector<StepStatus>& changes, Time now) {
     for (const temporal::Impact& impact : activity->impacts) {
       if (impact.kind != temporal::ImpactKind::assign) continue;
       if (step.ended && !succeeded) {  // what lasted gives way to the value before it
-        conclude(impact.timeline, executive_.value_of(impact.timeline));
+        note(impact.timeline, executive_.value_of(impact.timeline));
       } else if ((impact.moment == temporal::ImpactWhen::at_end) == succeeded) {
-        conclude(impact.timeline, impact.amount);
+        note(impact.timeline, impact.amount);
       }
     }
     if (news) note_achieved(*state_, now);
@@ -133,7 +133,7 @@ std::string RunningPlan::load(temporal::FlexiblePlan plan, Time now) {
   version_ = plan.version;
   invalid_ = false;
   watch(plan);
-  if (record_.open() && state_->mission->executive.replanning != mission::Replanning::continuous)
+  if (record_.open() && !state_->mission->executive.plans_continuously())
     close(ExecutedOutcome::replaced, "");
   record_.begin(plan);
   return "";
@@ -170,7 +170,7 @@ void RunningPlan::watch(const temporal::FlexiblePlan& plan, bool launched_again)
     predicted.insert(mission.has_domain() ? window.fact : window.timeline);
   predicted.insert(mission.ground.values.begin(),
                    mission.ground.values.end());  // the ground may still set them
-  const bool new_version = mission.executive.replanning == mission::Replanning::continuous || launched_again;
+  const bool new_version = mission.executive.plans_continuously() || launched_again;
   const temporal::FlexiblePlan watched = new_version ? in_order_of_starts(plan) : plan;
   ConflictMonitor conflicts(watched, predicted, mission.executive.ack_timeout);
   resource_monitor_ = ResourceMonitor(watched);

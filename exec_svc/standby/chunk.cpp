@@ -1,6 +1,5 @@
 #include "exec_svc/standby/chunk.hpp"
 
-#include <algorithm>
 #include <boost/crc.hpp>
 
 namespace roci::exec::standby {

@@ -85,8 +85,7 @@ void FollowerService::hand_over() {
   handed_over_at_ = moment();
   handed_over_ = GoalsApart::missing(handed_over_, journal_->goals());
   if (handed_over_.empty()) return apart_.remove();
-  for (const GoalRecord& goal : handed_over_)
-    goals_.write(to_wire(goal, executive_, lease_->request().member));
+  for (const GoalRecord& goal : handed_over_) goals_.write(to_wire(goal, executive_, lease_->self()));
 }
 
 // They are not merged (orders_apart.hpp).

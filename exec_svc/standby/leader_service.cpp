@@ -47,7 +47,7 @@ LeaderService::LeaderService(services::Node& node, std::string executive, Lease&
 void LeaderService::hear(const v1::LeaseMessage& member) {
   if (member.executive() != executive_) return;
   const LeaseMessage message = from_wire(member);
-  if (message.member == lease_->message({}).member) return;
+  if (message.member == lease_->self()) return;
   const Moment now = moment();
   lease_->hear(message, now);
   if (message.role == Role::following) feed_.hear(message.has, arrival_of(member), now);

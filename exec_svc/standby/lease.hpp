@@ -144,6 +144,7 @@ class Lease {
     return refused_ || persisted_term_.epoch > own_epoch_ + (unknown_epoch_ != 0 ? 1 : 0);
   }
   Role role() const { return role_; }
+  Member self() const { return self_; }
   std::uint64_t epoch() const { return persisted_term_.epoch; }
 
  private:

@@ -34,7 +34,8 @@ void PersistedTermFile::keep(const PersistedTerm& persisted_term) {
 void PersistedTermFile::write(const PersistedTerm& persisted_term) const {
   const fs::path unfinished = fs::path(file_).concat(".new");
   std::ofstream out(unfinished);
-  out << persisted_term.epoch << ' ' << persisted_term.alone << ' ' << persisted_term.holds << '\n' << std::flush;
+  out << persisted_term.epoch << ' ' << persisted_term.alone << ' ' << persisted_term.holds << '\n'
+      << std::flush;
   out.close();
   const int written = open(unfinished.c_str(), O_RDONLY | O_CLOEXEC);
   const bool good = out && written >= 0 && (durability_ == Durability::process || fsync(written) == 0);

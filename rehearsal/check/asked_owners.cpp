@@ -20,7 +20,7 @@ using namespace std::chrono_literals;
 namespace {
 
 constexpr auto kOfferWait = 2s;  // of wall time, until a service that is there has offered its functions
-constexpr auto kTurn = 20ms;    // of the asking node's loop
+constexpr auto kTurn = 20ms;     // of the asking node's loop
 constexpr double kBatchTimeoutS = 20;  // as planner_svc waits for a batch
 
 // Checks of one process do not hear each other.

@@ -60,7 +60,8 @@ class GoalKindCheck {
     std::vector<std::string> known{"id", "robot"};
     if (const auto arguments = entry.find("arguments"))
       for (const auto& [name, argument] : arguments->fields()) known.push_back(name);
-    for (const char* key : {"objects", "facts", "facts_while_open", "unobserved", "window", "goal", "achieved"})
+    for (const char* key :
+         {"objects", "facts", "facts_while_open", "unobserved", "window", "goal", "achieved"})
       if (const auto part = entry.find(key)) each_text(*part, [&](const Entry& text) { slots(text, known); });
     if (const auto unobserved = entry.find("unobserved"))
       unobserved->each(

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/mission/entry.hpp"
+#include "core/mission/finding_json.hpp"
 #include "core/mission/finding_report.hpp"
 #include "rehearsal/check/mission_check.hpp"
 #include "services/process/mission_folder.hpp"
@@ -29,15 +30,8 @@ std::string short_name(const std::string& file) {
 
 nlohmann::json as_json(const check::CheckReport& report, const fs::path& mission) {
   nlohmann::json out{{"mission", mission.filename().string()}, {"scenarios", report.scenarios},
-                     {"findings", nlohmann::json::array()},    {"planned", nlohmann::json::array()},
+                     {"findings", to_json(report.findings)},   {"planned", nlohmann::json::array()},
                      {"not_planned", nlohmann::json::array()}, {"unachieved", nlohmann::json::array()}};
-  for (const Finding& one : report.findings.sorted())
-    out["findings"].push_back({{"file", one.file},
-                               {"line", one.line},
-                               {"column", one.column},
-                               {"severity", to_string(one.severity)},
-                               {"what", one.what},
-                               {"remedy", one.remedy}});
   for (const check::PlannedKind& one : report.plans.planned)
     out["planned"].push_back(
         {{"kind", one.kind}, {"scenario", one.scenario}, {"goal", one.goal}, {"activities", one.activities}});

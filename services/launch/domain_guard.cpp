@@ -1,6 +1,5 @@
 #include "services/launch/domain_guard.hpp"
 
-#include <algorithm>
 #include <chrono>
 #include <memory>
 #include <set>

@@ -2,9 +2,7 @@
 // the last event.
 #pragma once
 
-#include <chrono>
 #include <map>
-#include <memory>
 #include <string>
 
 #include "services/node.hpp"

@@ -41,7 +41,7 @@ namespace fs = std::filesystem;
 constexpr std::chrono::milliseconds kTurn{20};
 constexpr std::size_t kShownLogLines = 8;
 constexpr clock::WallDuration kLookAtNetwork = std::chrono::seconds(1);
-constexpr clock::WallDuration kLookAtLogs = std::chrono::seconds(10);
+constexpr clock::WallDuration kLookAtFolder = std::chrono::seconds(10);
 // A user's own program stands elsewhere and loads the same vendors.
 const std::string kPluginPath = "ROCI_PLUGIN_PATH=";
 const std::string kAnchor = std::string(clock::kHostAnchorVariable) + "=";
@@ -172,105 +172,185 @@ std::unique_ptr<transport::Transport> connect_on(const process::Connection& own,
   }
 }
 
+// Says when the run began, by the clock that all its services go by.
+struct Beginning {
+  clock::HostAnchor anchor;
+  std::int64_t unix_us = 0;
+};
+
+// Who goes on with a run keeps its beginning, and its anchor while the host is up.
+Beginning beginning_of(const Options& options) {
+  if (!options.continued) {
+    const clock::HostAnchor anchor = clock::anchor_host();
+    return {anchor, anchor.unix_us};
+  }
+  const auto& earlier = options.continued->anchor;
+  return {earlier ? *earlier : clock::anchor_host(), options.continued->epoch_unix_us};
+}
+
+void settle_run_folder(Options& options, std::int64_t started_unix_us) {
+  if (options.run_folder.empty()) options.run_folder = choose_run_folder(options, started_unix_us);
+  options.run_folder = fs::absolute(options.run_folder);
+  refuse_used_folder(options);
+  services::process::make_own_folder(options.run_folder);
+}
+
+// Joins the run's domain as an observer, unless it is another run's.
+std::unique_ptr<services::Node> join(const Options& options, const std::function<int()>& stop_asked) {
+  const bool may_be_held = domain_may_be_held(options);
+  services::process::Connection own = options.connection;
+  own.dds = console_vendor(options.connection.dds);
+  auto node = std::make_unique<services::Node>(observer_options(own.dds, options.run),
+                                               connect_on(own, options, stop_asked));
+  if (may_be_held) refuse_held_domain(*node, options);
+  return node;
+}
+
 ExitCode exit_code(const std::optional<RunFailure>& failure, bool good) {
   if (failure) return failure->bad_input ? kBadInput : kServiceFailed;
   return good ? kAchieved : kNotAchieved;
 }
 
+// The launcher from the first process of the run to its summary.
+class Flight {
+ public:
+  Flight(const Options& options, const Beginning& beginning, const std::function<int()>& stop_asked)
+      : options_(options),
+        beginning_(beginning),
+        stop_asked_(stop_asked),
+        node_(join(options, stop_asked)),
+        progress_(*node_, !options.headless),
+        published_(services::process::runtime_folder(), record_of(options, beginning.unix_us)),
+        notifications_(services::process::runtime_folder()),
+        supervisor_(options.services, clock_master(), !options.live, Watchdog(options.watchdog_s), hooks(),
+                    options.continued ? options.continued->incarnations() : 0) {
+    node_->on_peer_change([this](const services::health::PeerChange& change) { hear(change); });
+  }
+
+  void run() {
+    look_at_folder_ = clock::wall_now();
+    supervisor_.start(clock::wall_now());
+    while (!supervisor_.finished()) {
+      node_->spin_once(kTurn);
+      pass_on_stop();
+      for (const pid_t sender : notifications_.receive())
+        supervisor_.watchdog().kick(sender, clock::wall_now());
+      supervisor_.turn(clock::wall_now());
+      look_at_clock();
+      progress_.show();
+      if (clock::wall_now() < look_at_folder_) continue;
+      look_at_folder_ = clock::wall_now() + kLookAtFolder;
+      look_at_folder();
+    }
+    progress_.end();
+  }
+
+  // Prints the outcome.
+  ExitCode conclude(clock::WallDuration flown) const {
+    const std::optional<RunFailure>& failure = supervisor_.failure();
+    if (failure) print_failure(*failure, options_.run_folder);
+    const Summary summary =
+        complete_summary(options_, std::chrono::duration<double>(flown).count(), !failure.has_value());
+    if (stops_ > 0 && !summary.good)
+      std::cerr
+          << "roci-launch: stopped by a signal before the mission had ended; goals that were open stay so\n";
+    std::cout << (options_.json ? summary.json + "\n" : summary.text) << std::flush;
+    return exit_code(failure, summary.good);
+  }
+
+ private:
+  std::string clock_master() const {
+    const mission::ServiceEntry* master = options_.list.clock_master();
+    return master == nullptr ? "" : master->name;
+  }
+
+  Supervisor::Hooks hooks() {
+    Supervisor::Hooks out;
+    out.start = [this](const std::string& service, std::uint32_t incarnation) {
+      return start(service, incarnation);
+    };
+    out.may_be_missed = [this](const std::string& service) {
+      const mission::ServiceEntry* entry = entry_of(options_, service);
+      return entry != nullptr && !entry->essential;
+    };
+    out.on_missed = [this](const std::string& service, const std::string& what) {
+      progress_.report(v1::SEVERITY_ERROR, "service.missed", service + " " + what);
+    };
+    out.on_death = [this](const std::string& service, const std::string& what) {
+      progress_.report(v1::SEVERITY_WARNING, "service.died", service + " " + what);
+    };
+    return out;
+  }
+
+  std::unique_ptr<Child> start(const std::string& service, std::uint32_t incarnation) const {
+    return std::make_unique<Child>(path_of(options_, service),
+                                   service_arguments(options_, service, incarnation, beginning_.unix_us),
+                                   options_.run_folder / (service + ".log"),
+                                   std::vector<std::string>{"NOTIFY_SOCKET=" + notifications_.address(),
+                                                            kPluginPath + transport::plugin_path(),
+                                                            kAnchor + to_text(beginning_.anchor)});
+  }
+
+  // Who leads a pair counts its epochs as incarnations, so it cannot be told which process this is.
+  void hear(const services::health::PeerChange& change) {
+    const mission::ServiceEntry* entry = options_.list.find(change.service);
+    if (options_.standby && entry != nullptr && entry->paired) return;
+    supervisor_.watchdog().heard(change, clock::wall_now());
+  }
+
+  void pass_on_stop() {
+    if (stop_asked_() <= stops_) return;
+    ++stops_;
+    supervisor_.stop(clock::wall_now());
+  }
+
+  void look_at_clock() {
+    if (!options_.live) return;
+    const auto set = clock_watch_.judge(unix_us(beginning_.anchor), clock::unix_us());
+    if (set) progress_.report(v1::SEVERITY_WARNING, "clock.set", *set);
+  }
+
+  void look_at_folder() {
+    for (const std::string& service : options_.services) bound_log(options_.run_folder / (service + ".log"));
+    std::error_code error;
+    const fs::space_info space = fs::space(options_.run_folder, error);
+    if (error) return;
+    if (const auto disk = disk_watch_.judge(space.available, options_.run_folder.string()))
+      progress_.report(disk->severity, disk->code, disk->text);
+  }
+
+  const Options& options_;
+  const Beginning& beginning_;
+  const std::function<int()>& stop_asked_;
+  std::unique_ptr<services::Node> node_;
+  Progress progress_;
+  const services::process::PublishedRun published_;
+  NotifySocket notifications_;
+  Supervisor supervisor_;
+  clock::SystemClockWatch clock_watch_;
+  DiskWatch disk_watch_;
+  clock::WallTime look_at_folder_;  // next
+  int stops_ = 0;                   // that were passed on
+};
+
 }  // namespace
 
 ExitCode fly(Options options, const std::function<int()>& stop_asked) {
   const auto begun = clock::wall_now();
-  const auto earlier = options.continued ? options.continued->anchor : std::nullopt;
-  const clock::HostAnchor anchor = earlier.value_or(clock::anchor_host());
-  const std::int64_t started_unix_us = options.continued ? options.continued->epoch_unix_us : anchor.unix_us;
+  const Beginning beginning = beginning_of(options);
   std::optional<services::process::DomainClaim> claim;
   auto& transport = options.connection.transport;
   if (!options.domain_given) transport.domain = claim.emplace().id();
-  if (options.run_folder.empty()) options.run_folder = choose_run_folder(options, started_unix_us);
-  options.run_folder = fs::absolute(options.run_folder);
-  refuse_used_folder(options);
-  services::process::make_own_folder(options.run_folder);
+  settle_run_folder(options, beginning.unix_us);
   const FolderLock lock(options.run_folder);
-  keep_command_line_on(options, anchor, started_unix_us, stop_asked);
+  keep_command_line_on(options, beginning.anchor, beginning.unix_us, stop_asked);
   if (options.continued) remove_outcome(options.run_folder);
 
   require_keys(options);
-  const bool may_be_held = domain_may_be_held(options);
-  const std::string vendor = console_vendor(options.connection.dds);
   transport.participant = "launcher";
-  services::process::Connection own = options.connection;
-  own.dds = vendor;
-  services::Node node(observer_options(vendor, options.run), connect_on(own, options, stop_asked));
-  if (may_be_held) refuse_held_domain(node, options);
-  Progress progress(node, !options.headless);
-  const services::process::PublishedRun published(services::process::runtime_folder(),
-                                                  record_of(options, started_unix_us));
-
-  NotifySocket notifications(services::process::runtime_folder());
-  Supervisor::Hooks hooks;
-  hooks.start = [&](const std::string& service, std::uint32_t incarnation) {
-    return std::make_unique<Child>(
-        path_of(options, service), service_arguments(options, service, incarnation, started_unix_us),
-        options.run_folder / (service + ".log"),
-        std::vector<std::string>{"NOTIFY_SOCKET=" + notifications.address(),
-                                 kPluginPath + transport::plugin_path(), kAnchor + to_text(anchor)});
-  };
-  hooks.may_be_missed = [&](const std::string& service) {
-    const mission::ServiceEntry* entry = entry_of(options, service);
-    return entry != nullptr && !entry->essential;
-  };
-  hooks.on_missed = [&](const std::string& service, const std::string& what) {
-    progress.report(v1::SEVERITY_ERROR, "service.missed", service + " " + what);
-  };
-  hooks.on_death = [&](const std::string& service, const std::string& what) {
-    progress.report(v1::SEVERITY_WARNING, "service.died", service + " " + what);
-  };
-  const mission::ServiceEntry* master = options.list.clock_master();
-  Supervisor supervisor(options.services, master == nullptr ? "" : master->name, !options.live,
-                        Watchdog(options.watchdog_s), std::move(hooks),
-                        options.continued ? options.continued->incarnations() : 0);
-  node.on_peer_change([&](const services::health::PeerChange& change) {
-    // Who leads a pair counts its epochs as incarnations, so it cannot be told which process this is.
-    const mission::ServiceEntry* entry = options.list.find(change.service);
-    if (options.standby && entry != nullptr && entry->paired) return;
-    supervisor.watchdog().heard(change, clock::wall_now());
-  });
-  clock::SystemClockWatch clock_watch;
-  DiskWatch disk_watch;
-  clock::WallTime look_at_logs = begun;
-  supervisor.start(clock::wall_now());
-  int stops = 0;
-  while (!supervisor.finished()) {
-    node.spin_once(kTurn);
-    if (stop_asked() > stops) {
-      ++stops;
-      supervisor.stop(clock::wall_now());
-    }
-    for (const pid_t sender : notifications.receive()) supervisor.watchdog().kick(sender, clock::wall_now());
-    supervisor.turn(clock::wall_now());
-    if (const auto set = options.live ? clock_watch.judge(unix_us(anchor), clock::unix_us()) : std::nullopt)
-      progress.report(v1::SEVERITY_WARNING, "clock.set", *set);
-    progress.show();
-    if (clock::wall_now() < look_at_logs) continue;
-    look_at_logs = clock::wall_now() + kLookAtLogs;
-    for (const std::string& service : options.services) bound_log(options.run_folder / (service + ".log"));
-    std::error_code error;
-    const fs::space_info space = fs::space(options.run_folder, error);
-    const auto disk = error ? std::nullopt : disk_watch.judge(space.available, options.run_folder.string());
-    if (disk) progress.report(disk->severity, disk->code, disk->text);
-  }
-
-  progress.end();
-  if (supervisor.failure()) print_failure(*supervisor.failure(), options.run_folder);
-  const Summary summary =
-      complete_summary(options, std::chrono::duration<double>(clock::wall_now() - begun).count(),
-                       !supervisor.failure().has_value());
-  if (stops > 0 && !summary.good)
-    std::cerr
-        << "roci-launch: stopped by a signal before the mission had ended; goals that were open stay so\n";
-  std::cout << (options.json ? summary.json + "\n" : summary.text) << std::flush;
-  const ExitCode code = exit_code(supervisor.failure(), summary.good);
+  Flight flight(options, beginning, stop_asked);
+  flight.run();
+  const ExitCode code = flight.conclude(clock::wall_now() - begun);
   services::process::force_exit_after(services::process::kExitLimit, code, "roci-launch: the run is over");
   return code;
 }

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <stdexcept>
 
 #include "services/process/link_report.hpp"
 #include "services/process/run_summary.hpp"

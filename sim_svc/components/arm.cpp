@@ -61,7 +61,7 @@ Ending Arm::answer(const world::Answer& answer, Time now, Surroundings& around) 
     return Failure{"bad-trajectory", std::move(fault)};
   }
   trace_ = track(trajectory->targets, now, around.components);
-  around.deeds.push_back({"motion", *target_});
+  around.effects.push_back({"motion", *target_});
   return std::nullopt;
 }
 

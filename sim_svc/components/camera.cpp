@@ -58,7 +58,7 @@ Ending Camera::finish(Surroundings& around) {
   image.source = shot_->source;
   image.bytes = static_cast<std::uint64_t>(bytes);
   last_bytes_ = static_cast<double>(image.bytes);
-  around.deeds.push_back({"image", image.id});
+  around.effects.push_back({"image", image.id});
   around.out.push_back(image);
   around.body.images.insert_or_assign(image.id, std::move(image));
   shot_.reset();

@@ -55,7 +55,7 @@ Ending DirectRadio::begin(const world::Task& task, Time now, Surroundings& aroun
   run.hollow = hollow_.take(task.command);
   run_ = std::move(run);
   if (around.body.thermal && !settings_.zone.empty()) around.body.thermal->hold(settings_.zone, this, now);
-  around.deeds.push_back({task.command, task.key.activity});
+  around.effects.push_back({task.command, task.key.activity});
   return std::nullopt;
 }
 
@@ -161,7 +161,7 @@ void DirectRadio::note_sent(Time now, Surroundings& around) {
     return;
   }
   around.out.push_back(*around.body.data->set_fate(done.product, Fate::sent));
-  around.deeds.push_back({"downlink", done.product});
+  around.effects.push_back({"downlink", done.product});
   arriving_[done.product] = now + temporal::seconds(settings_.light_time_s);
 }
 

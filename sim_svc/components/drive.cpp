@@ -104,7 +104,7 @@ Ending Drive::begin(const world::Task& task, Time now, Surroundings& around) {
   if (task.command == "turn") {
     target_ = Target{task.key, task.latest_end, place_, x, y, true};
     trace_ = simulate_turn(settings_.motion, now, *around.body.pose, {x, y}, noise_);
-    around.deeds.push_back({"turn", place_});
+    around.effects.push_back({"turn", place_});
     return std::nullopt;
   }
   target_ = Target{task.key, task.latest_end, task.arguments.at("to"), x, y, false, wanted.given};
@@ -113,7 +113,7 @@ Ending Drive::begin(const world::Task& task, Time now, Surroundings& around) {
     return std::nullopt;
   }
   way_ = wanted.way;
-  around.deeds.push_back({"motion", target_->place});
+  around.effects.push_back({"motion", target_->place});
   simulate(now, *around.body.pose, 0, around.environment.ground);
   return std::nullopt;
 }
@@ -127,7 +127,7 @@ Ending Drive::answer(const world::Answer& answer, Time now, Surroundings& around
   const auto* way = std::get_if<world::Way>(&answer);
   if (!way || way->points.empty()) return Failure{"no-path", "the path has no way-points"};
   way_ = way->points;
-  around.deeds.push_back({detours_ == 0 ? "motion" : "detour", target_->place});
+  around.effects.push_back({detours_ == 0 ? "motion" : "detour", target_->place});
   simulate(now, *around.body.pose, 0, around.environment.ground);
   return std::nullopt;
 }

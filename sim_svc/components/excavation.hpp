@@ -14,8 +14,8 @@ struct Ice {
   /// The energy that cuts a unit of its volume (Teale, "The concept of specific energy in rock
   /// drilling", 1965), in the middle.
   double specific_energy_j_m3 = 1e9;
-  double layer_m = 0.01;     ///< within a layer it is equally hard
-  double layer_noise = 0.1;  ///< standard deviation of the logarithm from layer to layer
+  double layer_m = 0.01;              ///< within a layer it is equally hard
+  double layer_noise = 0.1;           ///< standard deviation of the logarithm from layer to layer
   std::optional<double> deepest_m{};  ///< what lies below cannot be cut
 };
 

@@ -164,7 +164,7 @@ Ending Grapple::see_blocked(const std::string& slot) {
 
 Ending Grapple::end_localize(const Work& done, Surroundings& around) {
   if (done.gets_dark) return Failure{"too-dark", settings_.light + " closed before the slot was localized"};
-  around.deeds.push_back({"localize", done.slot});
+  around.effects.push_back({"localize", done.slot});
   if (slots_.at(done.slot).settings.blocked && !module_in(done.slot)) return see_blocked(done.slot);
   fix_ = done.slot;
   ++changes_;
@@ -172,7 +172,7 @@ Ending Grapple::end_localize(const Work& done, Surroundings& around) {
 }
 
 Ending Grapple::end_grasp(const Work& done, Surroundings& around) {
-  around.deeds.push_back({"grasp", done.module});
+  around.effects.push_back({"grasp", done.module});
   held_ = done.module;
   put(done.module, {"held", {}});
   return std::nullopt;
@@ -196,7 +196,7 @@ Ending Grapple::end_place(Work done, Surroundings& around) {
       return std::nullopt;
     }
   }
-  around.deeds.push_back({"place", done.module});
+  around.effects.push_back({"place", done.module});
   held_.reset();
   put(done.module, {closed ? "latched" : "resting", {done.slot}});
   if (closed) return std::nullopt;

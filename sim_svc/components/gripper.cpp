@@ -79,14 +79,14 @@ Ending Gripper::finish(Surroundings& around) {
   const Work done = *std::exchange(work_, std::nullopt);
   std::string& lies_at = around.environment.samples[done.sample];
   if (!done.pick) {
-    around.deeds.push_back({"drop", done.sample});
+    around.effects.push_back({"drop", done.sample});
     held_.reset();
     samples_[done.sample] = {"dropped", {done.place}};
     lies_at = done.place;
     return std::nullopt;
   }
   if (lies_at != done.place) return Failure{"no-sample", "somebody else took '" + done.sample + "'"};
-  around.deeds.push_back({"pick", done.sample});
+  around.effects.push_back({"pick", done.sample});
   held_ = done.sample;
   samples_[done.sample] = {"held", {}};
   lies_at.clear();

@@ -54,7 +54,7 @@ Ending Laboratory::begin(const world::Task& task, Time now, Surroundings& around
         {Phase::Until::over, duration * one.duration_s, power * one.power_w, power * one.heat_w});
   if (Ending cold = phases_.begin(std::move(phases), now, around.body)) return cold;
   run_ = Run{task, sample};
-  around.deeds.push_back({task.command, id_of(sample)});
+  around.effects.push_back({task.command, id_of(sample)});
   return std::nullopt;
 }
 

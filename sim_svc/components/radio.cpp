@@ -45,7 +45,7 @@ Ending Radio::finish(Surroundings& around) {
   if (done.cut_off) return Failure{"contact-lost", "the window closed before the image was sent"};
   world::Image& image = around.body.images.at(done.image);
   image.sent = true;
-  around.deeds.push_back({"send", done.image});
+  around.effects.push_back({"send", done.image});
   around.out.push_back(image);
   return std::nullopt;
 }

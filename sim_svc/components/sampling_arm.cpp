@@ -131,7 +131,7 @@ Ending SamplingArm::begin(const world::Task& task, Time now, Surroundings& aroun
     run_.reset();
     return cold;
   }
-  around.deeds.push_back(
+  around.effects.push_back(
       {task.command, run.where.site + (run.where.target.empty() ? "" : " " + run.where.target)});
   return std::nullopt;
 }

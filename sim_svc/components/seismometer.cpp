@@ -31,7 +31,7 @@ Ending Seismometer::begin(const world::Task& task, Time now, Surroundings& aroun
   const double factor = settings_.duration_factor * noise_.factor(settings_.duration_noise);
   work_.start(temporal::seconds(there ? 0 : usual_s * factor), now);
   run_ = task;
-  around.deeds.push_back({task.command, ""});
+  around.effects.push_back({task.command, ""});
   return std::nullopt;
 }
 

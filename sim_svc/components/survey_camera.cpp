@@ -27,7 +27,7 @@ Ending SurveyCamera::begin(const world::Task& task, Time now, Surroundings& arou
   const Phase looking{Phase::Until::over, duration_s, power * survey.power_w, power * survey.heat_w};
   if (Ending refused = phases_.begin({Phase::warming(), looking}, now, around.body)) return refused;
   run_ = task;
-  around.deeds.push_back({task.command, task.arguments.contains("site") ? task.arguments.at("site") : ""});
+  around.effects.push_back({task.command, task.arguments.contains("site") ? task.arguments.at("site") : ""});
   return std::nullopt;
 }
 

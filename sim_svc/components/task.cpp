@@ -119,7 +119,7 @@ Ending TaskComponent::begin(const world::Task& task, Time now, Surroundings& aro
   work_.start(temporal::seconds(duration), now);
   std::string object;
   for (const auto& [name, value] : task.arguments) object += (object.empty() ? "" : " ") + value;
-  around.deeds.push_back({command.name, std::move(object)});
+  around.effects.push_back({command.name, std::move(object)});
   state_ = command.during ? filled(*command.during, task.arguments) : State{command.name, {}};
   return std::nullopt;
 }

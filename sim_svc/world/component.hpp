@@ -27,7 +27,7 @@ struct Surroundings {
   Body& body;
   const ComponentSet& components;  ///< are those of the same robot, itself included
   Outputs& out;
-  std::vector<Deed> deeds{};  ///< takes what the component does to the world
+  std::vector<PhysicalEffect> effects{};  ///< takes what the component does to the world
 };
 
 /// Is a command of a component with the arguments that it needs.

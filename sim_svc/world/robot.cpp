@@ -129,7 +129,7 @@ bool Robot::begin(const std::string& component, const Task& task, Time now, Envi
   } else {
     Surroundings surroundings = around(environment, out);
     failure = one->component->begin(task, now, surroundings);
-    note_deeds(*one, task.key, now, surroundings);
+    note_effects(*one, task.key, now, surroundings);
   }
   if (failure) {
     say(TaskStage::failed, *failure);
@@ -154,7 +154,7 @@ void Robot::answer(const TaskKey& key, const Answer& answer, Time now, Environme
   } else {
     Surroundings surroundings = around(environment, out);
     failure = one->component->answer(answer, now, surroundings);
-    note_deeds(*one, key, now, surroundings);
+    note_effects(*one, key, now, surroundings);
   }
   if (failure) break_off(*one, TaskStage::failed, *failure, now, environment, out);
 }
@@ -164,7 +164,7 @@ void Robot::finish_due(Time now, Environment& environment, Outputs& out) {
     if (!one.running || one.component->next_change() != now) continue;
     Surroundings surroundings = around(environment, out);
     const Ending failure = one.component->finish(surroundings);
-    note_deeds(one, one.running->key, now, surroundings);
+    note_effects(one, one.running->key, now, surroundings);
     if (one.component->busy()) continue;  // it goes on
     if (failure) {
       conclude(one, TaskStage::failed, *failure, one.component->results(), now, out);
@@ -305,10 +305,10 @@ bool Robot::has_data_under_way() const {
                            body_.data->products().end();
 }
 
-void Robot::note_deeds(const Part& one, const TaskKey& cause, Time now, Surroundings& surroundings) {
-  for (Deed& deed : surroundings.deeds)
-    surroundings.environment.effects.push_back({now, name_, one.name, std::move(deed), cause});
-  surroundings.deeds.clear();
+void Robot::note_effects(const Part& one, const TaskKey& cause, Time now, Surroundings& surroundings) {
+  for (PhysicalEffect& effect : surroundings.effects)
+    surroundings.environment.effects.push_back({now, name_, one.name, std::move(effect), cause});
+  surroundings.effects.clear();
 }
 
 void Robot::break_off(Part& one, TaskStage stage, const Failure& why, Time now, Environment& environment,

@@ -156,7 +156,7 @@ class Robot {
   Surroundings around(Environment& environment, Outputs& out) {
     return {name_, environment, body_, components_, out};
   }
-  void note_deeds(const Part&, const TaskKey& cause, temporal::Time now, Surroundings&);
+  void note_effects(const Part&, const TaskKey& cause, temporal::Time now, Surroundings&);
   void break_off(Part&, TaskStage, const Failure& why, temporal::Time now, Environment&, Outputs& out);
   void conclude(Part&, TaskStage, const Failure& why, std::map<std::string, temporal::Value> values,
                 temporal::Time now, Outputs& out);

@@ -67,18 +67,18 @@ struct Results {
 
 /// Is something physical that a component has just done: a motion that began, an image that was taken, a sample
 /// that was picked. It does not come again by being asked for twice.
-struct Deed {
+struct PhysicalEffect {
   std::string kind;
   std::string object;  ///< that it was done to
 };
 
-/// Is a deed with what caused it. All deeds of a world are told, whoever was behind the command: what an owner's
-/// rules let pass is seen here, not what it was asked for (bench/kill counts them).
+/// Is such an effect with what caused it. All effects in a world are told, whoever was behind the command: what an
+/// owner's rules let pass is seen here, not what it was asked for (bench/kill counts them).
 struct Effect {
   temporal::Time at{};
   std::string robot;
   std::string component;
-  Deed deed;
+  PhysicalEffect deed;
   TaskKey cause;
 };
 

@@ -10,6 +10,7 @@
 #include <set>
 #include <sstream>
 
+#include "core/mission/finding_json.hpp"
 #include "core/mission/finding_report.hpp"
 #include "core/pddl/source.hpp"
 #include "core/temporal/execution_windows.hpp"
@@ -23,7 +24,7 @@
 
 namespace roci::planner::timeline_htn::cli {
 
-using mission::Finding, mission::Findings;
+using mission::Findings;
 using model::Model;
 using temporal::FlexiblePlan, temporal::PlanActivity;
 
@@ -31,18 +32,6 @@ namespace {
 
 std::string counted(std::size_t count, const std::string& thing) {
   return std::to_string(count) + " " + thing + (count == 1 ? "" : "s");
-}
-
-nlohmann::ordered_json to_json(const Findings& findings) {
-  auto out = nlohmann::ordered_json::array();
-  for (const Finding& finding : findings.sorted())
-    out.push_back({{"file", finding.file},
-                   {"line", finding.line},
-                   {"column", finding.column},
-                   {"severity", mission::to_string(finding.severity)},
-                   {"what", finding.what},
-                   {"remedy", finding.remedy}});
-  return out;
 }
 
 std::string seconds(temporal::Duration time) {

@@ -26,7 +26,7 @@ void declare(const std::string& name, const Entry& entry, Names& names, Vocabula
   if (!arguments) return;
   std::vector<Index> types;
   for (const Entry& type : items(*arguments, model::kMostParameters))
-    types.push_back(vocabulary.types.index(type.text(), type));
+    types.push_back(vocabulary.type(type.text(), type));
   if (types.empty()) arguments->fail("a table has at least one argument; name its type");
   if (names.size() >= model::kMostTables)
     entry.fail("more than " + std::to_string(model::kMostTables) + " tables of this kind; join some");
@@ -38,7 +38,7 @@ void declare(const std::string& name, const Entry& entry, Names& names, Vocabula
 void each_row(const Entry& entry, const std::vector<Index>& types, std::size_t more, Vocabulary& vocabulary,
               const std::function<void(const std::vector<Index>&, const std::vector<Entry>&)>& take) {
   const bool symmetric = entry.truth_or("symmetric", false);
-  if (symmetric && (types.size() != 2 || types[0] != types[1]))
+  if (symmetric && (types.size() != 2 || !may_be_same(types[0], types[1])))
     entry.at("symmetric").fail("only a table with two arguments of one type is symmetric; take the word out");
   const auto rows = entry.find("rows");
   if (!rows) return;
@@ -74,7 +74,7 @@ model::AskedNumbers asked_numbers(const Entry& entry, const Vocabulary& vocabula
       entry.at("module").text(), entry.text_or("function", table.name), {}, entry.place()};
   if (const auto relation = entry.find("rows_of")) {
     out.rows_of = vocabulary.relations.index(relation->text(), *relation);
-    if (vocabulary.model.relations[*out.rows_of].types != table.types)
+    if (!std::ranges::equal(vocabulary.model.relations[*out.rows_of].types, table.types, may_be_same))
       relation->fail("relation '" + relation->text() + "' is of other types than '" + table.name +
                      "'; name one with the same arguments, or none");
   }
@@ -96,7 +96,7 @@ void read_types(const Entry& section, Vocabulary& vocabulary) {
 
 void read_objects(const Entry& section, Vocabulary& vocabulary) {
   section.each_field([&](const std::string& type, const Entry& list) {
-    const Index index = vocabulary.types.index(type, list);
+    const Index index = vocabulary.type(type, list);
     for (const Entry& object : items(list, model::kMostObjects)) {
       object.attempt([&] {
         if (vocabulary.objects.size() >= model::kMostObjects)

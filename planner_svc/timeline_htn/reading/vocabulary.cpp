@@ -37,9 +37,15 @@ std::vector<std::pair<std::string, Entry>> fields(const Entry& mapping, std::siz
   return out;
 }
 
+Index Vocabulary::type(const std::string& name, const Entry& place) const {
+  Index out = kUnknownType;
+  place.attempt([&] { out = types.index(name, place); });
+  return out;
+}
+
 Term Vocabulary::term(const std::string& name, Index type, Scope& scope, const Entry& place) const {
   const auto wrong_type = [&](Index found) {
-    if (found != type)
+    if (!may_be_same(found, type))
       place.fail("'" + name + "' is of type " + model.types[found] + ", and a " + model.types[type] +
                  " is wanted; name another one");
   };
@@ -56,8 +62,9 @@ Term Vocabulary::term(const std::string& name, Index type, Scope& scope, const E
     std::vector<std::string> known;
     for (const Variable& one : scope.variables) known.push_back(one.name);
     for (const model::Object& one : model.objects)
-      if (one.type == type) known.push_back(one.name);
-    place.fail("'" + name + "' is no variable here and no " + model.types[type] + "; " +
+      if (may_be_same(one.type, type)) known.push_back(one.name);
+    place.fail("'" + name + "' is no variable here and no " +
+               (type == kUnknownType ? "object" : model.types[type]) + "; " +
                words::nearest(name, known).remedy(known_or_declare(known)));
   }
   if (scope.variables.size() >= model::kMostVariables)
@@ -217,9 +224,12 @@ std::vector<Variable> Vocabulary::variables(const Entry& mapping) const {
   std::vector<Variable> out;
   Names names("variable");
   for (const auto& [name, type] : fields(mapping, model::kMostParameters)) {
-    names.add(name, type);
-    if (objects.find(name)) type.fail("'" + name + "' is an object, too; rename one");
-    out.push_back({name, types.index(type.text(), type)});
+    Variable& variable = out.emplace_back(Variable{name, kUnknownType});
+    type.attempt([&] {
+      names.add(name, type);
+      if (objects.find(name)) type.fail("'" + name + "' is an object, too; rename one");
+      variable.type = types.index(type.text(), type);
+    });
   }
   return out;
 }

@@ -1,6 +1,7 @@
 // What the lines of a model mean: names are looked up, and every object stands where its type may.
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "planner_svc/timeline_htn/model/model.hpp"
@@ -8,6 +9,15 @@
 #include "planner_svc/timeline_htn/reading/names.hpp"
 
 namespace roci::planner::timeline_htn::reading {
+
+/// Stands for a type that the model does not have, which is told where it is named: any object will do for it, so that
+/// what is declared with it brings no second fault.
+inline constexpr model::Index kUnknownType = std::numeric_limits<model::Index>::max();
+
+/// Returns whether two types are the same, as far as they are known.
+constexpr bool may_be_same(model::Index one, model::Index other) {
+  return one == other || one == kUnknownType || other == kUnknownType;
+}
 
 /// Holds the variables that a line may use.
 struct Scope {
@@ -27,6 +37,8 @@ struct Vocabulary {
   Names behaviours{"behaviour"};
   model::Model model;
 
+  /// Returns the type of that name, or kUnknownType, with the fault noted.
+  model::Index type(const std::string& name, const mission::Entry& place) const;
   model::Term term(const std::string& name, model::Index type, Scope& scope,
                    const mission::Entry& place) const;
   /// Returns terms for a table or state with these types; `what` names it in messages.

@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "core/mission/finding_json.hpp"
 #include "core/mission/finding_report.hpp"
 #include "planner_svc/utility_htn/cli/chain_table.hpp"
 #include "planner_svc/utility_htn/cli/first_plan.hpp"
@@ -18,25 +19,13 @@
 
 namespace roci::planner::utility_htn::cli {
 
-using mission::Finding, mission::Findings;
+using mission::Findings;
 using model::Network;
 
 namespace {
 
 std::string counted(std::size_t count, const std::string& thing) {
   return std::to_string(count) + " " + thing + (count == 1 ? "" : "s");
-}
-
-nlohmann::ordered_json to_json(const Findings& findings) {
-  auto out = nlohmann::ordered_json::array();
-  for (const Finding& finding : findings.sorted())
-    out.push_back({{"file", finding.file},
-                   {"line", finding.line},
-                   {"column", finding.column},
-                   {"severity", mission::to_string(finding.severity)},
-                   {"what", finding.what},
-                   {"remedy", finding.remedy}});
-  return out;
 }
 
 bool readable(const std::filesystem::path& file, const Output& output) {

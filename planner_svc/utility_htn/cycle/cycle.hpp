@@ -4,13 +4,13 @@
 
 #include <cstdint>
 #include <map>
-#include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "core/temporal/timelines/timelines.hpp"
 #include "planner_svc/utility_htn/assessor/assessor.hpp"
+#include "planner_svc/utility_htn/cycle/observations.hpp"
 #include "planner_svc/utility_htn/cycle/placement.hpp"
 #include "planner_svc/utility_htn/cycle/sessions.hpp"
 #include "planner_svc/utility_htn/delivery/delivery.hpp"
@@ -109,7 +109,6 @@ class Cycle {
   bool follow(temporal::Time now);
   temporal::Time expected(temporal::Time due, temporal::Time now) const;
   void await_start(Block& of, std::size_t index, temporal::Time now);
-  temporal::Time free_for(const Link& waiting) const;
   bool consolidate(temporal::Time now);
   bool schedule(temporal::Time now, Report& report);
   bool repair(temporal::Time now, Report& report);
@@ -153,7 +152,6 @@ class Cycle {
   temporal::timelines::Footprint footprint(const Block& block, std::size_t link) const;
   temporal::Duration duration(model::TaskIndex task) const;
   temporal::Duration length(const Block& block, std::size_t link) const;
-  temporal::Time free_until(const Link& of) const;
   void fit_downlinks();
   bool keep_limits(Report& report);
   void settle(temporal::Time now, Report& report);
@@ -182,14 +180,7 @@ class Cycle {
   bool to_schedule_ = true;         // something waits that was not tried in this situation
   bool scheduled_ = false;          // ever
   bool to_optimize_ = false;        // the situation is another one
-  std::vector<double> deviation_;   // by timeline, of observations, since it was optimized last
-  struct Reported {
-    temporal::Time sampled{0};
-    double value = 0;
-  };
-  std::map<temporal::timelines::Index, Reported> reported_;  // by timeline: the newest observation
-  // By timeline: when a command that was to move it ended, and nothing was observed since.
-  std::map<temporal::timelines::Index, temporal::Time> unreported_;
+  Observations observations_;       // and what they say against the plan
 };
 
 }  // namespace roci::planner::utility_htn::cycle

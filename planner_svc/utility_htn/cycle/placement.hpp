@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 #include "core/temporal/timelines/timelines.hpp"
@@ -34,6 +33,11 @@ struct Link {
   temporal::Duration told{0};  ///< what it takes as the executive was told; 0: not committed yet
   friend bool operator==(const Link&, const Link&) = default;
 };
+
+/// Returns whether the link has not begun, but will.
+constexpr bool waits(const Link& link) {
+  return link.stage == Stage::planned || link.stage == Stage::committed;
+}
 
 /// Returns whether the timelines hold the link.
 constexpr bool is_placed(const Link& link) { return !is_over(link.stage) && link.stage != Stage::doomed; }

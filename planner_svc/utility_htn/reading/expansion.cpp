@@ -68,12 +68,12 @@ void Expansion::spend(const Source& list, std::size_t items) {
 }
 
 void Expansion::stop_at_many_findings() const {
-  if (findings_->errors() >= kMostFindings) throw Enough();
+  if (findings_->errors() >= kMostFindings) throw ReadingAborted();
 }
 
 void Expansion::stop(const Source& at, const std::string& what) {
   findings_->add(at.entry().place() + ": " + what);
-  throw Enough();
+  throw ReadingAborted();
 }
 
 void Expansion::repeat(const Source& value, const std::function<void(const Source&)>& read) {

@@ -17,8 +17,8 @@ namespace roci::planner::utility_htn::reading {
 /// Holds the named lists of a file (`sets`).
 using Sets = std::map<std::string, std::vector<std::string>, std::less<>>;
 
-/// Ends the reading of a file in which no more faults are looked for: they are noted already.
-class Enough : public std::exception {};
+/// Ends the reading of a file in which no more faults are looked for: those that end it are noted already.
+class ReadingAborted : public std::exception {};
 
 /// Repeats entries, at most so many in one file that memory is safe.
 class Expansion {
@@ -39,9 +39,9 @@ class Expansion {
   /// Returns the values that "[0, 1, 2]", "{from: 1, to: 22}" or the name of a set stand for.
   std::vector<std::string> values(const Source& source);
   /// Counts items of lists that are read, as often as they are: aliases of YAML may stand for many.
-  /// Throws Enough beyond the bounds.
+  /// Throws ReadingAborted beyond the bounds.
   void spend(const Source& list, std::size_t items);
-  /// Throws Enough where so many faults are noted that nobody reads more.
+  /// Throws ReadingAborted where so many faults are noted that nobody reads more.
   void stop_at_many_findings() const;
 
  private:

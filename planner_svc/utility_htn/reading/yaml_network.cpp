@@ -348,7 +348,7 @@ Read read(const std::function<Entry()>& open, Findings& findings, bool may_inclu
     out = YamlReader(open(), findings, may_include).take();
   } catch (const FileError& error) {
     findings.add(error.what());
-  } catch (const Enough&) {  // noted
+  } catch (const ReadingAborted&) {  // noted
   }
   if (findings.errors() > before) out.network.reset();
   return out;

@@ -79,9 +79,8 @@ std::string configuration(const transport::TransportOptions& options) {
          "</General><Discovery><ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>" +
          std::to_string(transport::kMaxParticipantsPerHost - 1) + "</MaxAutoParticipantIndex><Peers>" +
          peers + "</Peers><SPDPInterval>500ms</SPDPInterval><LeaseDuration>" + std::to_string(kLeaseSeconds) +
-         "s</LeaseDuration></Discovery><Internal><GenerateKeyhash>true</"
-         "GenerateKeyhash></Internal>"
-         "</Domain></CycloneDDS>";
+         "s</LeaseDuration></Discovery><Internal><GenerateKeyhash>true</GenerateKeyhash></Internal></Domain>"
+         "</CycloneDDS>";
 }
 
 Domain::Domain(const transport::TransportOptions& options, std::string config)
@@ -106,9 +105,8 @@ std::shared_ptr<Domain> join_domain(const transport::TransportOptions& options) 
   if (domain && (domain->config() != config || domain->secure() != secure)) {
     throw transport::TransportError("domain " + std::to_string(options.domain) +
                                     " is open in this process with another address, other peers or another "
-                                    "configuration, or one is secure and the other "
-                                    "is not; "
-                                    "Cyclone DDS keeps one per domain and process");
+                                    "configuration, or one is secure and the other is not; Cyclone DDS keeps "
+                                    "one per domain and process");
   }
   dds_set_log_sink(log_to_standard_error, nullptr);
   if (!domain) domains[options.domain] = domain = std::make_shared<Domain>(options, config);

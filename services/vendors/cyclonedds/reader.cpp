@@ -7,6 +7,8 @@ extern "C" {
 #include "services/vendors/cyclonedds/session_start.h"
 }
 
+#include "services/vendors/cyclonedds/qos.hpp"
+
 namespace roci::services::vendors::cyclonedds {
 
 CycloneReader::CycloneReader(dds_entity_t subscriber, const TopicHandle& topic,

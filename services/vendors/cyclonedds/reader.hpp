@@ -35,8 +35,8 @@ class CycloneReader : public transport::Reader {
   std::atomic<int> matched_ = 0;
   std::mutex mutex_;  // one callback at a time
   InstanceTable instances_;
-  std::unordered_map<dds_instance_handle_t, transport::Guid>
-      writers_;  // all that ever matched: ends come after a writer left
+  // All that ever matched: ends come after a writer left.
+  std::unordered_map<dds_instance_handle_t, transport::Guid> writers_;
   dds_entity_t reader_;
 };
 

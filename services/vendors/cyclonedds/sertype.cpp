@@ -11,6 +11,8 @@ extern "C" {
 #include <cstring>
 #include <memory>
 
+#include "services/vendors/history_limits.hpp"
+
 namespace roci::services::vendors::cyclonedds {
 namespace {
 

@@ -18,7 +18,6 @@ extern "C" {
 #include <span>
 
 #include "services/transport/transport.hpp"
-#include "services/vendors/history_limits.hpp"
 #include "services/vendors/instance_table.hpp"
 
 namespace roci::services::vendors::cyclonedds {

@@ -27,8 +27,8 @@ struct Opening {
   std::optional<std::uint32_t> address;
   bool secure = false;
   int bound = 0;
-  std::uint16_t sends_from =
-      0;  // the port of the one socket for which the vendor leaves the choice to the system
+  // The port of the one socket for which the vendor leaves the choice to the system.
+  std::uint16_t sends_from = 0;
 };
 thread_local std::optional<Opening> opening;
 
@@ -159,21 +159,21 @@ extern "C" ssize_t guarded_sendmsg(int socket, const msghdr* message, int flags)
   return real_sendmsg(socket, message, flags);
 }
 
-void stand_before_the_sockets() {
+// Puts `ours` in the place of a function that Cyclone DDS imports, and keeps what it called before; null: it imports no
+// such function.
+template <class Ours, class Theirs>
+void replace(const char* function, Ours* ours, Theirs& theirs) {
   const void* const library = reinterpret_cast<const void*>(&dds_create_domain);
-  void* const bind = replace_import(library, "bind", reinterpret_cast<void*>(&guarded_bind));
-  real_bind = reinterpret_cast<decltype(real_bind)>(bind);
-  void* const receive = replace_import(library, "recvmsg", reinterpret_cast<void*>(&guarded_recvmsg));
-  real_recvmsg = reinterpret_cast<decltype(real_recvmsg)>(receive);
-  void* const send = replace_import(library, "sendmsg", reinterpret_cast<void*>(&guarded_sendmsg));
-  real_sendmsg = reinterpret_cast<decltype(real_sendmsg)>(send);
-  void* const initialize = replace_import(library, "rtps_init", reinterpret_cast<void*>(&guarded_initialize));
-  real_initialize = reinterpret_cast<decltype(real_initialize)>(initialize);
-  void* const participant =
-      replace_import(library, "ddsi_new_participant", reinterpret_cast<void*>(&guarded_new_participant));
-  real_new_participant = reinterpret_cast<decltype(real_new_participant)>(participant);
-  void* const number = replace_import(library, "ddsi_iid_gen", reinterpret_cast<void*>(&guarded_number));
-  real_number = reinterpret_cast<decltype(real_number)>(number);
+  theirs = reinterpret_cast<Theirs>(replace_import(library, function, reinterpret_cast<void*>(ours)));
+}
+
+void stand_before_the_sockets() {
+  replace("bind", guarded_bind, real_bind);
+  replace("recvmsg", guarded_recvmsg, real_recvmsg);
+  replace("sendmsg", guarded_sendmsg, real_sendmsg);
+  replace("rtps_init", guarded_initialize, real_initialize);
+  replace("ddsi_new_participant", guarded_new_participant, real_new_participant);
+  replace("ddsi_iid_gen", guarded_number, real_number);
 }
 
 }  // namespace
@@ -187,8 +187,8 @@ GuardedOpening::GuardedOpening(std::shared_ptr<guard::Guard> guard, std::optiona
     throw transport::TransportError(
         "this build of Cyclone DDS does not let its sockets be guarded (it imports no bind, "
         "recvmsg, sendmsg, rtps_init, ddsi_new_participant or ddsi_iid_gen); use the library of Debian 12, "
-        "or another "
-        "transport with --dds");
+        "or "
+        "another transport with --dds");
   }
   opening = Opening{std::move(guard), address, secure};
 }

@@ -6,6 +6,8 @@ extern "C" {
 
 #include <vector>
 
+#include "services/vendors/cyclonedds/qos.hpp"
+
 namespace roci::services::vendors::cyclonedds {
 
 CycloneWriter::CycloneWriter(dds_entity_t publisher, const TopicHandle& topic,
@@ -32,7 +34,9 @@ bool CycloneWriter::write(std::span<const std::uint8_t> payload) {
   return data && dds_writecdr(writer_, data) == DDS_RETCODE_OK;
 }
 
-bool CycloneWriter::dispose(std::span<const std::uint8_t> payload) { return end(payload, NN_STATUSINFO_DISPOSE); }
+bool CycloneWriter::dispose(std::span<const std::uint8_t> payload) {
+  return end(payload, NN_STATUSINFO_DISPOSE);
+}
 
 bool CycloneWriter::forget(std::span<const std::uint8_t> payload) {
   return end(payload, NN_STATUSINFO_DISPOSE | NN_STATUSINFO_UNREGISTER);

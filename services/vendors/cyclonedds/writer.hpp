@@ -5,7 +5,6 @@
 
 #include "services/transport/forgets_instances.hpp"
 #include "services/transport/transport.hpp"
-#include "services/vendors/cyclonedds/qos.hpp"
 #include "services/vendors/cyclonedds/sertype.hpp"
 
 namespace roci::services::vendors::cyclonedds {

@@ -3,7 +3,6 @@
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
 #include <fastrtps/utils/IPLocator.h>
 
-#include <algorithm>
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
 
 #include "services/transport/rtps_ports.hpp"

@@ -46,7 +46,11 @@ void FastReader::on_data_available(dds::DataReader* reader) {
     if (reader->take_next_sample(&bytes, &info) != ReturnCode_t::RETCODE_OK) return;
     const std::lock_guard lock(mutex_);
     if (closed_) return;
-    info.valid_data ? take_value(std::move(bytes), info) : take_end(info);
+    if (info.valid_data) {
+      take_value(std::move(bytes), info);
+    } else {
+      take_end(info);
+    }
   }
 }
 

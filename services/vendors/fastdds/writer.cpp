@@ -20,6 +20,8 @@ const Duration_t kNoPatience(0, 0);
 // confirmed what it has: twice the period of heartbeats (qos.cpp).
 constexpr std::size_t kWaiting = 48;
 const Duration_t kPatience(0, 200'000'000);
+// A writer that ends waits so long for its readers.
+const Duration_t kParting(0, 100'000'000);
 
 int depth_of(const transport::QosSettings& qos) { return qos.transient_local ? qos.history_depth : 0; }
 
@@ -46,7 +48,7 @@ FastWriter::FastWriter(dds::Publisher& publisher, dds::Topic& topic,
 }
 
 FastWriter::~FastWriter() {
-  if (qos_.reliable && matched_ > 0) writer_->wait_for_acknowledgments(Duration_t(0, 100'000'000));
+  if (qos_.reliable && matched_ > 0) writer_->wait_for_acknowledgments(kParting);
   writer_->set_listener(nullptr);
   publisher_.delete_datawriter(writer_);
 }
@@ -111,7 +113,7 @@ bool FastWriter::has_space(std::size_t bytes) {
   const std::size_t together = unconfirmed_bytes_ += bytes;
   if (samples <= qos_.max_samples / 2 && together <= kUnconfirmedBytes / 2) return true;
   const bool full = samples > qos_.max_samples || (samples > 1 && together > kUnconfirmedBytes);
-  const auto patience = full ? blocking_time(qos_) : Duration_t(0, 0);
+  const auto patience = full ? blocking_time(qos_) : kNoPatience;
   if (writer_->wait_for_acknowledgments(patience) == ReturnCode_t::RETCODE_OK) {
     unconfirmed_ = 1;
     unconfirmed_bytes_ = bytes;

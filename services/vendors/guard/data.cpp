@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "services/vendors/guard/rtps_ids.hpp"
+
 namespace roci::services::vendors::guard {
 namespace {
 
@@ -12,19 +14,17 @@ enum class WriterKind { user, discovery, liveliness, other_builtin };
 WriterKind kind_of_writer(const ByteView& entity_id) {
   const auto bytes = entity_id.bytes;
   if ((bytes[3] & 0xc0) != 0xc0) return WriterKind::user;
-  const std::uint32_t id =
-      std::uint32_t{bytes[0]} << 24 | std::uint32_t{bytes[1]} << 16 | std::uint32_t{bytes[2]} << 8 | bytes[3];
-  switch (id) {
-    case 0x000100c2:  // participants
-    case 0x000002c2:  // topics
-    case 0x000003c2:  // writers
-    case 0x000004c2:  // readers
-    case 0xff0101c2:  // the same behind DDS Security
-    case 0xff0003c2:
-    case 0xff0004c2:
+  switch (ByteView{bytes, false}.u32(0)) {
+    case kParticipants:
+    case kTopics:
+    case kWriters:
+    case kReaders:
+    case kSecureParticipants:
+    case kSecureWriters:
+    case kSecureReaders:
       return WriterKind::discovery;
-    case 0x000200c2:
-    case 0xff0200c2:
+    case kLiveliness:
+    case kSecureLiveliness:
       return WriterKind::liveliness;
     default:
       return WriterKind::other_builtin;
@@ -46,7 +46,7 @@ Parts split(const Submessage& message, std::size_t fixed, const GuidPrefix& send
   if (offset % 4 != 0 || offset < fixed - 4 || offset > body.size() - 4) return {Verdict::cut};
   if (body.sequence_number(12) <= 0) return {Verdict::bad_numbers};
   Parts parts{Verdict::pass, kind_of_writer(body.part(8, 4)), body.from(4 + offset)};
-  const bool inline_qos = (message.flags & 0x02) != 0;
+  const bool inline_qos = (message.flags & kInlineQosFlag) != 0;
   if (!inline_qos) return parts;
   const bool guarded = parts.writer == WriterKind::discovery || parts.writer == WriterKind::liveliness;
   const auto list =
@@ -76,7 +76,7 @@ Verdict liveliness_payload(const ByteView& payload, const GuidPrefix& sender) {
 
 Verdict examine_data(const Submessage& message, const GuidPrefix& sender) {
   constexpr std::size_t kFixed = 20;
-  const bool data = (message.flags & 0x04) != 0, key = (message.flags & 0x08) != 0;
+  const bool data = (message.flags & kDataFlag) != 0, key = (message.flags & kKeyFlag) != 0;
   if (data && key) return Verdict::cut;
   const Parts parts = split(message, kFixed, sender);
   if (parts.verdict != Verdict::pass) return parts.verdict;

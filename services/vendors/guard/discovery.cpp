@@ -4,15 +4,11 @@
 #include <string_view>
 
 #include "services/vendors/guard/message.hpp"
+#include "services/vendors/guard/rtps_ids.hpp"
 #include "services/vendors/guard/submessages.hpp"
 
 namespace roci::services::vendors::guard {
 namespace {
-
-constexpr std::uint8_t kSample = 0x15, kFirstFragment = 0x16;  // DATA, DATA_FRAG
-constexpr std::uint32_t kParticipants = 0x000100c2, kHandshakes = 0x000201c3;
-constexpr std::uint16_t kEndOfList = 0x0001, kDefaultUnicast = 0x0031, kMetatrafficUnicast = 0x0032;
-constexpr std::uint32_t kUdp4 = 1;
 
 // The payload of a sample or of its first fragment behind the encapsulation,
 // in its own byte order; empty: there is none.
@@ -22,7 +18,7 @@ ByteView payload_of(const Submessage& message, std::size_t fixed) {
   const std::size_t offset = 4 + std::size_t{body.u16(2)};
   if (offset < fixed || offset > body.size()) return {};
   ByteView rest = body.from(offset);
-  const bool inline_qos = (message.flags & 0x02) != 0;
+  const bool inline_qos = (message.flags & kInlineQosFlag) != 0;
   if (inline_qos) {
     const auto list = examine_parameters(rest, ListKind::inline_qos, std::nullopt);
     if (list.verdict != Verdict::pass) return {};
@@ -37,9 +33,9 @@ ByteView payload_of(const Submessage& message, std::size_t fixed) {
 template <class See>
 void for_each_sample(std::span<const std::uint8_t> message, std::uint32_t writer, See see) {
   for_each_submessage(message, [&](const Submessage& one) {
-    if ((one.id != kSample && one.id != kFirstFragment) || one.body.size() < 12) return;
+    if ((one.id != kData && one.id != kDataFragment) || one.body.size() < 12) return;
     if (ByteView{one.body.part(8, 4).bytes, false}.u32(0) != writer) return;
-    const ByteView payload = payload_of(one, one.id == kSample ? 20 : 32);
+    const ByteView payload = payload_of(one, one.id == kData ? 20 : 32);
     if (payload.size() > 0) see(payload);
   });
 }
@@ -64,8 +60,8 @@ std::optional<Announcement> announcement_in(std::span<const std::uint8_t> messag
       const std::uint16_t id = list.u16(at);
       const std::size_t length = list.u16(at + 2);
       at += 4;
-      if (id == kEndOfList || length > list.size() - at) return;
-      if (id == kDefaultUnicast || id == kMetatrafficUnicast)
+      if (id == kSentinel || length > list.size() - at) return;
+      if (id == kDefaultUnicastLocator || id == kMetatrafficUnicastLocator)
         if (const auto reached = udp4(list.part(at, length))) out.reached_at.push_back(*reached);
       at += length;
     }

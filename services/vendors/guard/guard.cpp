@@ -6,6 +6,7 @@
 #include <chrono>
 #include <iostream>
 
+#include "services/vendors/guard/rtps_ids.hpp"
 #include "services/vendors/peers.hpp"
 
 namespace roci::services::vendors::guard {
@@ -70,7 +71,7 @@ std::size_t Guard::admit_secure(std::span<std::uint8_t> message) {
 
 bool Guard::keeps_back(std::span<const std::uint8_t> datagram, const Source& destination) {
   if (!policy_.secure || datagram.size() <= kHeaderSize) return false;
-  const bool encrypted = datagram[kHeaderSize] == kEncryptionPrefix;
+  const bool encrypted = datagram[kHeaderSize] == kSrtpsPrefix;
   if (encrypted && !silent_) return false;
   const auto now = std::chrono::steady_clock::now();
   const std::lock_guard lock(partings_mutex_);

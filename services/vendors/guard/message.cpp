@@ -4,22 +4,21 @@
 #include <cstring>
 #include <vector>
 
+#include "services/vendors/guard/rtps_ids.hpp"
 #include "services/vendors/guard/submessages.hpp"
 
 namespace roci::services::vendors::guard {
 namespace {
 
 constexpr std::size_t kSubmessageHeaderSize = 4;
-constexpr std::uint8_t kFirstVendorId = 0x80;
-constexpr std::uint8_t kPad = 0x01;
-constexpr std::uint8_t kInfoTimestamp = 0x09, kInfoDestination = 0x0e;
-constexpr std::uint8_t kEncryptedBody = 0x30, kEncryptionPostfix = 0x34;
-constexpr std::uint8_t kData = 0x15, kDataFragment = 0x16;
+
+// Of the submessage at the beginning of these bytes.
+bool is_little_endian(std::span<const std::uint8_t> rest) { return (rest[1] & kLittleEndianFlag) != 0; }
 
 // Where a submessage ends, seen from its own beginning; 0 if it reaches over the end of the message.
 std::size_t size_of_first(std::span<const std::uint8_t> rest) {
   if (rest.size() < kSubmessageHeaderSize) return 0;
-  const ByteView header{rest, (rest[1] & 1) != 0};
+  const ByteView header{rest, is_little_endian(rest)};
   const std::size_t length = header.u16(2);
   // Length 0 reaches to the end of the message, but for the two kinds that may be empty (RTPS 2.3, 8.3.3.2.3).
   if (length == 0) return rest[0] == kPad || rest[0] == kInfoTimestamp ? kSubmessageHeaderSize : rest.size();
@@ -46,7 +45,7 @@ std::size_t strip(std::span<std::uint8_t> message, Keep keep) {
 // later reads the rest in plain.
 bool is_encrypted(std::span<const std::uint8_t> message) {
   auto rest = message.subspan(kHeaderSize);
-  for (const std::uint8_t id : {kEncryptionPrefix, kEncryptedBody, kEncryptionPostfix}) {
+  for (const std::uint8_t id : {kSrtpsPrefix, kSecBody, kSrtpsPostfix}) {
     if (rest.empty() || rest[0] != id) return false;
     rest = rest.subspan(size_of_first(rest));
   }
@@ -54,7 +53,9 @@ bool is_encrypted(std::span<const std::uint8_t> message) {
 }
 
 // SEC_BODY, SEC_PREFIX and SEC_POSTFIX.
-bool is_one_encrypted(std::span<const std::uint8_t> one) { return one[0] >= 0x30 && one[0] <= 0x32; }
+bool is_one_encrypted(std::span<const std::uint8_t> one) {
+  return one[0] >= kSecBody && one[0] <= kSecPostfix;
+}
 
 // Returns whether data in plain stand behind what is encrypted one by one, in a message whose parts may change places.
 bool hides_plain_data(std::span<const std::uint8_t> message) {
@@ -65,7 +66,7 @@ bool hides_plain_data(std::span<const std::uint8_t> message) {
     const auto one = rest.first(size_of_first(rest));
     rest = rest.subspan(one.size());
     // What reaches to the end of the message by a length of 0 must stay there.
-    if (one.size() != kSubmessageHeaderSize + ByteView{one, (one[1] & 1) != 0}.u16(2)) return false;
+    if (one.size() != kSubmessageHeaderSize + ByteView{one, is_little_endian(one)}.u16(2)) return false;
     if (one[0] == kInfoDestination) {
       const bool another = encrypted && !std::ranges::equal(destination, one);
       if (another) return false;
@@ -88,8 +89,8 @@ Verdict examine(std::span<const std::uint8_t> datagram) {
     const std::size_t size = size_of_first(rest);
     if (size == 0) return Verdict::cut;
     const ByteView body{rest.subspan(kSubmessageHeaderSize, size - kSubmessageHeaderSize),
-                        (rest[1] & 1) != 0};
-    if (rest[0] < kFirstVendorId) {
+                        is_little_endian(rest)};
+    if (rest[0] < kFirstOfVendors) {
       const Verdict verdict = examine_submessage({rest[0], rest[1], body}, sender);
       if (verdict != Verdict::pass) return verdict;
     }
@@ -110,20 +111,21 @@ void for_each_submessage(std::span<const std::uint8_t> message,
     const std::size_t size = size_of_first(rest);
     if (size == 0) return;
     see({rest[0], rest[1],
-         ByteView{rest.subspan(kSubmessageHeaderSize, size - kSubmessageHeaderSize), (rest[1] & 1) != 0}});
+         ByteView{rest.subspan(kSubmessageHeaderSize, size - kSubmessageHeaderSize),
+                  is_little_endian(rest)}});
     rest = rest.subspan(size);
   }
 }
 
 std::size_t strip_vendor_submessages(std::span<std::uint8_t> message) {
-  return strip(message, [](std::span<const std::uint8_t> one) { return one[0] < kFirstVendorId; });
+  return strip(message, [](std::span<const std::uint8_t> one) { return one[0] < kFirstOfVendors; });
 }
 
 std::size_t strip_plain_submessages(std::span<std::uint8_t> message) {
   if (is_encrypted(message)) return message.size();
   bool speaks = false;
   const std::size_t length = strip(message, [&speaks](std::span<const std::uint8_t> one) {
-    const ByteView body{one.subspan(kSubmessageHeaderSize), (one[1] & 1) != 0};
+    const ByteView body{one.subspan(kSubmessageHeaderSize), is_little_endian(one)};
     const Plain kind = plain_kind_of({one[0], one[1], body});
     speaks = speaks || kind == Plain::speech;
     return kind != Plain::refused;

@@ -12,8 +12,6 @@
 namespace roci::services::vendors::guard {
 
 inline constexpr std::size_t kHeaderSize = 20;  ///< of an RTPS message
-/// SRTPS_PREFIX: what follows is encrypted as a whole.
-inline constexpr std::uint8_t kEncryptionPrefix = 0x33;
 
 /// A message that passes is well-formed down to its submessages (RTPS 2.3, 8.3 and 9.4), claims no sample over
 /// kMaxSampleBytes, and speaks in discovery for its sender alone. What DDS Security has encrypted passes as it is;

@@ -1,31 +1,26 @@
 #include "services/vendors/guard/parameters.hpp"
 
 #include <algorithm>
+#include <initializer_list>
+
+#include "services/vendors/guard/rtps_ids.hpp"
 
 namespace roci::services::vendors::guard {
 namespace {
-
-// RTPS 2.3, table 9.13; the flag "must be understood" is no part of the id.
-constexpr std::uint16_t kMustUnderstand = 0x4000;
-constexpr std::uint16_t kSentinel = 0x0001;
-constexpr std::uint16_t kPadding = 0x0000;
-constexpr std::uint16_t kKeyHash = 0x0070;
-constexpr std::uint16_t kStatusInfo = 0x0071;
 
 bool one_of(std::uint16_t id, std::initializer_list<std::uint16_t> ids) {
   return std::find(ids.begin(), ids.end(), id) != ids.end();
 }
 
 bool names_guid(std::uint16_t id) {
-  return one_of(id, {0x0050 /* participant */, 0x005a /* endpoint */, 0x0052 /* group */, kKeyHash});
+  return one_of(id, {kParticipantGuid, kEndpointGuid, kGroupGuid, kKeyHash});
 }
-bool is_string(std::uint16_t id) {
-  return one_of(id, {0x0005 /* topic name */, 0x0007 /* type name */, 0x0062 /* entity name */});
+bool is_string(std::uint16_t id) { return one_of(id, {kTopicName, kTypeName, kEntityName}); }
+bool is_octets(std::uint16_t id) { return one_of(id, {kUserData, kGroupData, kTopicData}); }
+bool is_locator(std::uint16_t id) {
+  return one_of(id, {kUnicastLocator, kMulticastLocator, kDefaultUnicastLocator, kMetatrafficUnicastLocator,
+                     kMetatrafficMulticastLocator, kDefaultMulticastLocator});
 }
-bool is_octets(std::uint16_t id) {
-  return one_of(id, {0x002c /* user data */, 0x002d /* group data */, 0x002e /* topic data */});
-}
-bool is_locator(std::uint16_t id) { return one_of(id, {0x002f, 0x0030, 0x0031, 0x0032, 0x0033, 0x0048}); }
 
 // Moves `at` behind a counted run of bytes; false if it does not fit.
 bool skip_counted(const ByteView& value, std::size_t& at) {
@@ -57,8 +52,8 @@ bool fits(std::uint16_t id, const ByteView& value, ListKind kind) {
   if (names_guid(id)) return value.size() == 16;
   if (is_locator(id)) return value.size() == 24;
   if (is_string(id) || is_octets(id)) return skip_counted(value, at);
-  if (id == 0x0029 /* partition */) return holds_strings(value, 1);
-  if (id == 0x0059 /* properties */) return holds_strings(value, 2);
+  if (id == kPartition) return holds_strings(value, 1);
+  if (id == kPropertyList) return holds_strings(value, 2);
   return true;
 }
 

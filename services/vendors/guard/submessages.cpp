@@ -1,8 +1,7 @@
 #include "services/vendors/guard/submessages.hpp"
 
-#include <algorithm>
-
 #include "services/vendors/guard/data.hpp"
+#include "services/vendors/guard/rtps_ids.hpp"
 
 namespace roci::services::vendors::guard {
 namespace {
@@ -83,7 +82,7 @@ Verdict encryption_postfix(const Submessage& message) {
 }
 
 Verdict info_timestamp(const Submessage& message) {
-  const bool invalidates = (message.flags & 0x02) != 0;
+  const bool invalidates = (message.flags & kInvalidateFlag) != 0;
   return invalidates ? Verdict::pass : at_least(message, 8);
 }
 
@@ -91,35 +90,35 @@ Verdict info_timestamp(const Submessage& message) {
 
 Verdict examine_submessage(const Submessage& message, const GuidPrefix& sender) {
   switch (message.id) {
-    case 0x01:  // PAD
+    case kPad:
       return Verdict::pass;
-    case 0x06:
+    case kAckNack:
       return acknack(message);
-    case 0x07:
+    case kHeartbeat:
       return heartbeat(message);
-    case 0x08:
+    case kGap:
       return gap(message);
-    case 0x09:
+    case kInfoTimestamp:
       return info_timestamp(message);
-    case 0x0c:
+    case kInfoSource:
       return info_source(message, sender);
-    case 0x0e:  // INFO_DST
+    case kInfoDestination:
       return at_least(message, 12);
-    case 0x12:
+    case kNackFragments:
       return nack_fragments(message);
-    case 0x13:
+    case kHeartbeatFragments:
       return heartbeat_fragments(message);
-    case 0x15:
+    case kData:
       return examine_data(message, sender);
-    case 0x16:
+    case kDataFragment:
       return examine_data_fragment(message, sender);
-    case 0x30:  // SEC_BODY
+    case kSecBody:
       return encrypted_body(message);
-    case 0x31:  // SEC_PREFIX
-    case 0x33:  // SRTPS_PREFIX
+    case kSecPrefix:
+    case kSrtpsPrefix:
       return encryption_prefix(message);
-    case 0x32:  // SEC_POSTFIX
-    case 0x34:  // SRTPS_POSTFIX
+    case kSecPostfix:
+    case kSrtpsPostfix:
       return encryption_postfix(message);
     default:  // INFO_REPLY (0x0d, 0x0f) among them: neither vendor sends it, and it directs answers elsewhere
       return Verdict::unknown_submessage;
@@ -128,18 +127,17 @@ Verdict examine_submessage(const Submessage& message, const GuidPrefix& sender) 
 
 Plain plain_kind_of(const Submessage& message) {
   switch (message.id) {
-    case 0x09:  // INFO_TS
-    case 0x0e:  // INFO_DST
+    case kInfoTimestamp:
+    case kInfoDestination:
       return Plain::context;
-    case 0x30:  // SEC_BODY, SEC_PREFIX, SEC_POSTFIX
-    case 0x31:
-    case 0x32:
+    case kSecBody:
+    case kSecPrefix:
+    case kSecPostfix:
       return Plain::speech;
-    case 0x15:  // DATA and DATA_FRAG have their writer at the same place
-    case 0x16: {
-      const ByteView writer{message.body.part(8, 4).bytes, false};
-      const bool early =
-          writer.u32(0) == 0x000100c2 || writer.u32(0) == 0x000201c3;  // participants; the handshake
+    case kData:  // both have their writer at the same place
+    case kDataFragment: {
+      const std::uint32_t writer = ByteView{message.body.part(8, 4).bytes, false}.u32(0);
+      const bool early = writer == kParticipants || writer == kHandshakes;
       return early ? Plain::speech : Plain::refused;
     }
     default:

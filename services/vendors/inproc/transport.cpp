@@ -1,10 +1,10 @@
 // The inproc transport: participants of one process, on any threads, that meet by domain id. No network.
-#include "services/transport/forgets_instances.hpp"
 #include "services/transport/transport.hpp"
 
 #include <map>
 #include <mutex>
 
+#include "services/transport/forgets_instances.hpp"
 #include "services/vendors/inproc/bus.hpp"
 
 namespace roci::services::vendors::inproc {

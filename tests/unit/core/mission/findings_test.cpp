@@ -7,8 +7,10 @@
 
 #include <filesystem>
 #include <fstream>
+#include <nlohmann/json.hpp>
 
 #include "core/mission/entry.hpp"
+#include "core/mission/finding_json.hpp"
 #include "core/mission/finding_report.hpp"
 
 namespace roci::mission {
@@ -121,6 +123,17 @@ TEST(FindingReport, HasEachWithItsPlaceAndBelowItWhatToDo) {
   EXPECT_EQ(
       report(findings),
       "a.yaml: warning: it is empty\nb.yaml:3:7: error: unknown key 'naem'\n    did you mean 'name'?\n");
+}
+
+TEST(FindingJson, HasEachWithAllThatIsKnownOfIt) {
+  Findings findings;
+  findings.add({"b.yaml", 3, 7, Severity::error, "unknown key 'naem'", "did you mean 'name'?"});
+  findings.add({"a.yaml", 0, 0, Severity::warning, "it is empty", ""});
+  EXPECT_EQ(to_json(findings).dump(),
+            R"([{"file":"a.yaml","line":0,"column":0,"severity":"warning","what":"it is empty","remedy":""},)"
+            R"({"file":"b.yaml","line":3,"column":7,"severity":"error","what":"unknown key 'naem'",)"
+            R"("remedy":"did you mean 'name'?"}])");
+  EXPECT_EQ(to_json({}).dump(), "[]");
 }
 
 }  // namespace

@@ -157,87 +157,121 @@ double value_at(const std::vector<Effect>& effects, const Moment& moment) {
   return value;
 }
 
+class Dice {
+ public:
+  explicit Dice(std::uint64_t seed) : random_(seed) {}
+  std::int64_t below(std::uint64_t n) { return static_cast<std::int64_t>(random_() % n); }
+  Duration seconds_below(std::uint64_t n) { return seconds(static_cast<double>(below(n))); }
+
+ private:
+  std::mt19937_64 random_;
+};
+
+// None to two impacts of one kind on the level.
+std::vector<Impact> draw_impacts(Dice& dice) {
+  std::vector<Impact> out;
+  for (auto n = dice.below(3); n > 0; --n) {
+    const auto kind = static_cast<ImpactKind>(dice.below(3));
+    const auto moment =
+        kind == ImpactKind::rate ? ImpactWhen::during : static_cast<ImpactWhen>(dice.below(2));
+    out.push_back({"level", kind, moment, static_cast<double>(dice.below(21) - 10)});
+  }
+  if (out.size() == 2 && out[0].kind != out[1].kind) out.pop_back();
+  if (out.size() == 2 && out[0].kind == ImpactKind::assign) out.pop_back();
+  return out;
+}
+
+// One to eight activities, some of which come behind another one.
+FlexiblePlan draw_plan(Dice& dice) {
+  FlexiblePlan plan;
+  plan.origin = dice.seconds_below(50);
+  const auto count = 1 + static_cast<std::size_t>(dice.below(8));
+  for (std::size_t i = 0; i < count; ++i) {
+    std::vector<Impact> impacts = draw_impacts(dice);
+    add(plan, "a" + std::to_string(i), static_cast<double>(dice.below(20)), std::move(impacts));
+    if (i == 0 || dice.below(2) != 0) continue;
+    const auto before = static_cast<TimePoint>(2 + 2 * dice.below(i));
+    plan.constraints.push_back(
+        {before, plan.activities[i].start_point, ConstraintKind::ordering, dice.seconds_below(3), no_bound});
+  }
+  return plan;
+}
+
+struct HalfWay {
+  Progress progress;
+  std::vector<Effect> effects;  // of what was executed and of what is to come
+};
+
+// The first activities in plan order have run, each late by a little; one may have failed.
+HalfWay fly_until(Time now, const FlexiblePlan& plan, Dice& dice) {
+  HalfWay out;
+  std::vector<Time> earliest(plan.point_count, plan.origin);
+  for (std::size_t i = 0; i < plan.activities.size(); ++i) {
+    const PlanActivity& activity = plan.activities[i];
+    Time start = plan.origin;
+    for (const TemporalConstraint& c : plan.constraints)
+      if (c.to_point == activity.start_point) start = std::max(start, earliest[c.from_point] + c.lower);
+    const Time late = start + dice.seconds_below(5);
+    const Time ended = late + activity.duration_lower + dice.seconds_below(5);
+    ActivityProgress& at = out.progress[activity.id];
+    bool ends = true;
+    Time end{0};
+    if (late > now) {
+      start = std::max(start, now);
+      end = start + activity.duration_lower;
+    } else {
+      start = late;
+      at = {ActivityState::running, start, {}};
+      end = std::max(now, start + activity.duration_lower);
+      if (ended <= now) {
+        end = ended;
+        ends = dice.below(5) != 0;
+        at = {ends ? ActivityState::succeeded : ActivityState::failed, start, end};
+      }
+    }
+    earliest[activity.start_point] = start;
+    earliest[activity.end_point] = end;
+    for (const Impact& impact : activity.impacts) out.effects.push_back({&impact, start, end, i, ends});
+  }
+  return out;
+}
+
+// Every change that the effects make is among those of the level, with the value that the sums give. Returns how many
+// there are.
+std::size_t expect_all(const std::vector<Effect>& effects, const FlexiblePlan& plan,
+                       const std::vector<ProjectedChange>& level) {
+  std::size_t seen = 0;
+  for (const Effect& effect : effects) {
+    for (const bool at_end : {false, true}) {
+      const bool rate = effect.impact->kind == ImpactKind::rate;
+      const bool here = rate || (effect.impact->moment == ImpactWhen::at_end) == at_end;
+      if (!here || (at_end && !rate && !effect.ends)) continue;
+      ++seen;
+      const Moment moment{at_end ? effect.end : effect.start, effect.turn(at_end), effect.activity};
+      const double expected = value_at(effects, moment);
+      const bool found = std::ranges::any_of(level, [&](const ProjectedChange& change) {
+        return change.kind != ProjectionKind::planned && change.time == std::get<0>(moment) &&
+               change.activity == plan.activities[effect.activity].id &&
+               std::abs(std::get<double>(change.value) - expected) < 1e-9;
+      });
+      EXPECT_TRUE(found) << "at " << to_text(std::get<0>(moment)) << ": " << expected;
+    }
+  }
+  return seen;
+}
+
 TEST(Projection, AgreesWithSumsOverAllImpactsOnRandomPlansHalfWayThrough) {
-  std::mt19937_64 random(7);
-  const auto below = [&](std::uint64_t n) { return static_cast<std::int64_t>(random() % n); };
+  Dice dice(7);
   std::size_t compared = 0;
   for (int round = 0; round < 500; ++round) {
-    FlexiblePlan plan;
-    plan.origin = seconds(static_cast<double>(below(50)));
-    const auto count = 1 + random() % 8;
-    for (std::size_t i = 0; i < count; ++i) {
-      std::vector<Impact> impacts;
-      for (std::size_t n = random() % 3; n > 0; --n) {
-        const auto kind = static_cast<ImpactKind>(random() % 3);
-        const auto moment =
-            kind == ImpactKind::rate ? ImpactWhen::during : static_cast<ImpactWhen>(random() % 2);
-        impacts.push_back({"level", kind, moment, static_cast<double>(below(21) - 10)});
-      }
-      if (impacts.size() == 2 && impacts[0].kind != impacts[1].kind) impacts.pop_back();
-      if (impacts.size() == 2 && impacts[0].kind == ImpactKind::assign) impacts.pop_back();
-      add(plan, "a" + std::to_string(i), static_cast<double>(below(20)), std::move(impacts));
-      if (i > 0 && below(2) == 0) {
-        const auto before = static_cast<TimePoint>(2 + 2 * below(i));
-        plan.constraints.push_back({before, plan.activities[i].start_point, ConstraintKind::ordering,
-                                    seconds(static_cast<double>(below(3))), no_bound});
-      }
-    }
-    // The first activities in plan order have run, each late by a little; one may have failed.
-    const Time now = plan.origin + seconds(static_cast<double>(below(60)));
-    std::vector<Time> earliest(plan.point_count, plan.origin);
-    Progress progress;
-    std::vector<Effect> effects;
-    for (std::size_t i = 0; i < count; ++i) {
-      const PlanActivity& activity = plan.activities[i];
-      Time start = plan.origin;
-      for (const TemporalConstraint& c : plan.constraints)
-        if (c.to_point == activity.start_point) start = std::max(start, earliest[c.from_point] + c.lower);
-      const Time late = start + seconds(static_cast<double>(below(5)));
-      const Time ended = late + activity.duration_lower + seconds(static_cast<double>(below(5)));
-      ActivityProgress& at = progress[activity.id];
-      bool ends = true;
-      Time end{0};
-      if (late > now) {
-        start = std::max(start, now);
-        end = start + activity.duration_lower;
-      } else {
-        start = late;
-        at = {ActivityState::running, start, {}};
-        end = std::max(now, start + activity.duration_lower);
-        if (ended <= now) {
-          end = ended;
-          ends = below(5) != 0;
-          at = {ends ? ActivityState::succeeded : ActivityState::failed, start, end};
-        }
-      }
-      earliest[activity.start_point] = start;
-      earliest[activity.end_point] = end;
-      for (const Impact& impact : activity.impacts) effects.push_back({&impact, start, end, i, ends});
-    }
-    const auto out = project(plan, progress, now, {});
-    std::size_t seen = 0;
-    const auto level = out.find("level");
-    for (const Effect& effect : effects) {
-      for (const bool at_end : {false, true}) {
-        const bool rate = effect.impact->kind == ImpactKind::rate;
-        const bool here = rate || (effect.impact->moment == ImpactWhen::at_end) == at_end;
-        if (!here || (at_end && !rate && !effect.ends)) continue;
-        ++seen;
-        const Moment moment{at_end ? effect.end : effect.start, effect.turn(at_end), effect.activity};
-        const double expected = value_at(effects, moment);
-        ASSERT_NE(level, out.end());
-        const bool found = std::ranges::any_of(level->second, [&](const ProjectedChange& change) {
-          return change.kind != ProjectionKind::planned && change.time == std::get<0>(moment) &&
-                 change.activity == plan.activities[effect.activity].id &&
-                 std::abs(std::get<double>(change.value) - expected) < 1e-9;
-        });
-        EXPECT_TRUE(found) << "round " << round << " at " << to_text(std::get<0>(moment)) << ": " << expected;
-      }
-    }
-    const auto real =
-        level == out.end() ? 0 : std::ranges::count_if(level->second, [](const ProjectedChange& change) {
-          return change.kind != ProjectionKind::planned;
-        });
+    SCOPED_TRACE("round " + std::to_string(round));
+    const FlexiblePlan plan = draw_plan(dice);
+    const Time now = plan.origin + dice.seconds_below(60);
+    const HalfWay flown = fly_until(now, plan, dice);
+    const auto level = project(plan, flown.progress, now, {})["level"];
+    const std::size_t seen = expect_all(flown.effects, plan, level);
+    const auto real = std::ranges::count_if(
+        level, [](const ProjectedChange& change) { return change.kind != ProjectionKind::planned; });
     EXPECT_EQ(static_cast<std::size_t>(real), seen);
     compared += seen;
   }

@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <set>
+#include <string>
+
 #include "core/temporal/duration.hpp"
 #include "core/temporal/value.hpp"
 #include "core/temporal/verdict.hpp"
@@ -32,13 +35,13 @@ TEST(ValueText, NamesStatesWithArguments) {
   EXPECT_EQ(to_text(state("going-to", {"wp-1", "fast"})), "going-to(wp-1, fast)");
 }
 
-TEST(VerdictText, IsReadBackAsItWasWritten) {
-  for (int i = 0; i <= static_cast<int>(Verdict::no_reply); ++i) {
-    const auto verdict = static_cast<Verdict>(i);
-    EXPECT_EQ(verdict_named(to_string(verdict)), verdict);
-  }
-  EXPECT_EQ(verdict_named("solvable"), std::nullopt);
-  EXPECT_STREQ(to_string(static_cast<Verdict>(99)), "unknown");
+TEST(VerdictText, IsAnotherOneForEachVerdict) {
+  std::set<std::string> texts{to_string(static_cast<Verdict>(99))};
+  EXPECT_TRUE(texts.contains("unknown"));
+  for (int i = 0; i <= static_cast<int>(Verdict::no_reply); ++i)
+    EXPECT_TRUE(texts.insert(to_string(static_cast<Verdict>(i))).second) << i;
+  EXPECT_STREQ(to_string(Verdict::solved), "solved");
+  EXPECT_STREQ(to_string(Verdict::no_reply), "no_reply");
 }
 
 }  // namespace

@@ -68,6 +68,23 @@ TEST(TimelineModelFaults, AComponentOfAnUnknownLayerHasItsStates) {
   EXPECT_THAT(faults, testing::Not(HasSubstr("unknown state")));
 }
 
+// What is declared with such a type has its name and as many arguments, so that nobody is told to mend where it is used.
+TEST(TimelineModelFaults, AnUnknownTypeIsTheOneFaultOfWhatIsDeclaredWithIt) {
+  const std::string drive = "parameters: {from: waypoint, to: waypoint}\n        where";
+  const std::vector<Case> cases{
+      {"{place: waypoint}, observed", "{place: waypont}, observed", "m.yaml:20:47: "},
+      {drive, with(drive, "to: waypoint", "to: waypont"), "m.yaml:23:42: "},
+      {"complex, parameters: {from: waypoint", "complex, parameters: {from: waypont", "m.yaml:14:50: "},
+      {"edge: {arguments: [waypoint, waypoint]", "edge: {arguments: [waypoint, waypont]", "m.yaml:6:32: "},
+      {"metres: {arguments: [waypoint, waypoint]", "metres: {arguments: [waypont, waypoint]",
+       "m.yaml:8:24: "},
+      {"objects: {waypoint: [wp0", "objects: {waypont: [wp0", "m.yaml:4:20: "},
+  };
+  for (const Case& c : cases)
+    EXPECT_EQ(faults_of(with(kSound, c.from, c.to)),
+              c.says + "unknown type 'waypont'; did you mean 'waypoint'? else known: report, waypoint\n");
+}
+
 TEST(TimelineModelFaults, NumbersThatServicesAreAskedForAreToldWithPlaceAndRemedy) {
   const std::string table = "metres: {arguments: [waypoint, waypoint], rows: [[wp0, wp1, 4], [wp1, wp0, 5]]}";
   const auto asked = [&](const std::string& with) {

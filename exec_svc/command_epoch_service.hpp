@@ -1,0 +1,45 @@
+/// The epoch in which an executive commands, and what it does where an owner holds another one.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+
+#include "exec_svc/output_publisher_service.hpp"
+#include "exec_svc/strangers.hpp"
+#include "services/topics.hpp"
+
+namespace roci::exec {
+
+namespace journal {
+class Journal;
+}
+namespace standby {
+class LeaderService;
+}  // namespace standby
+
+class CommandEpoch {
+ public:
+  /// With a `leader`, of a pair, that decides where an owner holds a later epoch; without one the executive takes the
+  /// epoch after it, and `begin` hears of that. All outlive this.
+  CommandEpoch(const services::Node&, journal::Journal&, OutputPublisher&, Strangers&,
+               standby::LeaderService* leader, std::uint64_t epoch, std::function<void(std::uint64_t)> begin);
+
+  std::uint64_t number() const { return epoch_; }
+
+  /// Takes in that an owner refused the epoch of a command. Returns whether what was refused is to be said again, in
+  /// the epoch that has begun by then.
+  bool take_refusal(const v1::CommandAck&);
+
+ private:
+  void follow(const v1::CommandAck&);
+
+  const services::Node& node_;
+  journal::Journal& journal_;
+  OutputPublisher& publisher_;
+  Strangers& strangers_;
+  standby::LeaderService* leader_;  // none: no other executive follows
+  std::uint64_t epoch_;
+  std::function<void(std::uint64_t)> begin_;
+};
+
+}  // namespace roci::exec

@@ -1,0 +1,133 @@
+// What is observed and executed, taken into the plan (R76): what runs, ends, fails or is late stands in the timelines
+// as it was, or as it is now expected.
+#include <algorithm>
+
+#include "planner_svc/utility_htn/cycle/claims.hpp"
+#include "planner_svc/utility_htn/cycle/cycle.hpp"
+
+namespace roci::planner::utility_htn::cycle {
+
+using temporal::Duration, temporal::Time;
+using temporal::timelines::Index;
+
+namespace {
+
+// Nothing is expected to be later than it is by more than this.
+constexpr Duration kFarthestExpectation = std::chrono::hours(1);
+
+}  // namespace
+
+void Cycle::observe(Index timeline, Time sampled, double value) {
+  const double foreseen = timelines_.value(timeline, sampled);
+  timelines_.observe(timeline, sampled, value);
+  to_optimize_ |= observations_.take(timeline, sampled, value, foreseen);
+}
+
+void Cycle::begun(TaskId task, Time at) {
+  Link* const one = link(task);
+  if (one == nullptr || !waits(*one)) return;
+  to_optimize_ |= one->start != at;
+  *one = {one->task, one->planned, at, at + length(*block(block_of(task)), link_of(task)), Stage::running};
+  timelines_.move(task, at, one->end);
+}
+
+void Cycle::tried_again(TaskId task, Time at) {
+  Link* const one = link(task);
+  if (one == nullptr || one->stage != Stage::running) return;
+  one->end = std::max(one->start, at) + length(*block(block_of(task)), link_of(task));
+  timelines_.move(task, one->start, one->end);
+  to_optimize_ = true;
+}
+
+void Cycle::ended(TaskId task, Time at, bool succeeded, const std::string& cause) {
+  Link* const one = link(task);
+  if (one == nullptr || is_over(one->stage)) return;
+  const bool placed =
+      is_placed(*one) && timelines_.placed(task);  // consolidation has forgotten what should be over
+  to_optimize_ |= one->end != at || !succeeded;
+  one->start = std::min(one->start, at);
+  one->end = at;
+  one->stage = succeeded ? Stage::succeeded : Stage::failed;
+  if (succeeded && placed) timelines_.move(task, one->start, at);
+  if (succeeded) observations_.await(network_.tasks[one->task], at);
+  if (succeeded || !placed) return;
+  timelines_.remove(task);  // what failed has no effect; what it has cost is observed
+  doom(task);
+  edit_network(one->task);
+  const model::Task& failed = network_.tasks[one->task];
+  notes_.push_back(failed.id + " failed" + (cause.empty() ? "" : ": " + cause));
+}
+
+// What a command was to bring about and nobody has reported for a whole interval has not come about:
+// the report before it stands.
+void Cycle::believe_reports(Time now) {
+  for (const auto& [timeline, value] : observations_.take_unconfirmed(now)) observe(timeline, now, value);
+}
+
+// What follows a link that has failed never gets what it waits for.
+void Cycle::doom(TaskId failed) {
+  Block& of = *block(block_of(failed));
+  for (std::size_t i = link_of(failed) + 1; i < of.links.size(); ++i) {
+    if (of.links[i].stage != Stage::committed) continue;
+    timelines_.remove(task_id(of.number, i));
+    of.links[i].stage = Stage::doomed;
+  }
+}
+
+void Cycle::nothing_runs(Time now) {
+  for (Block& one : blocks_)
+    for (std::size_t i = 0; i < one.links.size(); ++i) {
+      Link& each = one.links[i];
+      if (each.stage == Stage::committed) each.stage = Stage::planned;
+      if (each.stage == Stage::planned) each.told = Duration{0};
+      if (each.stage == Stage::running) ended(task_id(one.number, i), now, false, "the plan has ended");
+    }
+  to_optimize_ = true;
+}
+
+// What should have begun or ended by now and has not is expected to be late by as much again, an hour more at most
+// (R76). So what is long overdue moves the plan a few times and not in every cycle.
+// Returns whether what is expected has changed.
+bool Cycle::follow(Time now) {
+  bool changed = false;
+  for (Block& one : blocks_)
+    for (std::size_t i = 0; i < one.links.size(); ++i) {
+      const Link before = one.links[i];
+      if (before.stage == Stage::committed) await_start(one, i, now);
+      if (before.stage == Stage::running && before.end <= now) {
+        // What is due just now may have ended; what is overdue has not.
+        const Time due = before.start + length(one, i);
+        if (due < now) one.links[i].end = expected(due, now);
+        if (due > now) one.links[i].end = due;  // it was expected to end with the budget, and lasts
+      }
+      if (one.links[i] == before) continue;
+      changed |= one.links[i].end != before.end;
+      timelines_.move(task_id(one.number, i), one.links[i].start, one.links[i].end);
+    }
+  return changed;
+}
+
+Time Cycle::expected(Time due, Time now) const {
+  return now + std::clamp(now - due, network_.cycle.process_interval, kFarthestExpectation);
+}
+
+// A link starts behind the one before it. The first that is late may begin at any time,
+// and holds what it needs until then.
+void Cycle::await_start(Block& of, std::size_t index, Time now) {
+  Link& late = of.links[index];
+  const Duration length = this->length(of, index);
+  if (index > 0 && !is_over(of.links[index - 1].stage)) {
+    const Duration gap = chains_.chains[of.chain].links[index].shortest_gap;
+    late.start = std::max({late.start, now, of.links[index - 1].end + gap});
+    late.end = late.start + length;
+  } else if (late.start < now) {
+    late.start = now;
+    if (late.end - length < now) late.end = expected(late.planned, now) + length;
+  }
+  if (const Time free = free_from(network_, past_.values, blocks_, late); free > late.start) {
+    late.start = free;
+    late.end = std::max(late.end, free + length);
+  }
+}
+
+}  // namespace roci::planner::utility_htn::cycle
