@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "core/mission/mission_file.hpp"
 #include "core/mission/model_text.hpp"
@@ -33,6 +34,11 @@ void read_resolvers(const roci::mission::Entry& planner, const engine::Table& ta
                known);
   }
   if (out.resolvers.empty()) list->fail("there is no resolver in it; write some of " + known);
+  try {
+    if (engine->second.check_resolvers) engine->second.check_resolvers(out.resolvers);
+  } catch (const std::invalid_argument& fault) {
+    list->fail(fault.what());
+  }
 }
 
 }  // namespace

@@ -40,7 +40,7 @@ SteppedHost::SteppedHost(services::Node& node, const Settings& settings, const e
     : node_(node),
       entry_(entry),
       orders_(node, settings, networks, [this] { step_soon(); }),
-      setup_{settings.engine, node.options().robot, settings.model, settings.model_file},
+      setup_{settings.engine, node.options().robot, settings.model, settings.model_file, settings.resolvers},
       engine_(make_engine()),
       checker_(entry.make_checker()),
       deltas_(services::advertise(node, topics::plan_delta)),

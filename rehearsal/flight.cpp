@@ -13,6 +13,7 @@
 #include "rehearsal/loaded.hpp"
 #include "services/link/link_file.hpp"
 #include "services/node.hpp"
+#include "services/node/make_event.hpp"
 #include "services/process/link_report.hpp"
 #include "services/publisher.hpp"
 #include "services/topics.hpp"
@@ -50,6 +51,8 @@ class Listener {
   explicit Listener(const FlightOptions& options)
       : out_(options.run.run_folder / kEventsFile), node_(node_of(options), transport_of(options)) {
     services::subscribe(node_, services::topics::event, [this](const v1::Event& event) {
+      if (event.header().sender() == kListener) heard_all_ = true;
+      if (heard_all_) return;
       out_ << nlohmann::json{{"time_us", event.header().stamp_us()},
                              {"sender", event.header().sender()},
                              {"code", event.code()},
@@ -62,13 +65,16 @@ class Listener {
   ~Listener() {
     node_.stop();
     thread_.join();
-    node_.spin_once(std::chrono::milliseconds(0));  // what came last
+    // What was said last may still be on its way to this participant; its own word comes after all of that.
+    const auto end = services::advertise(node_, services::topics::event);
+    end.write(services::node::make_event(v1::SEVERITY_INFO, "scenario.over", ""));
+    while (!heard_all_) node_.spin_once(std::chrono::milliseconds(100));
   }
 
  private:
   static services::node::NodeOptions node_of(const FlightOptions& options) {
     services::node::NodeOptions out;
-    out.name = "rehearsal";
+    out.name = kListener;
     out.mission = std::filesystem::absolute(options.run.mission).lexically_normal().filename().string();
     out.run = out.mission;
     out.incarnation = 0;
@@ -79,11 +85,14 @@ class Listener {
   static std::unique_ptr<services::transport::Transport> transport_of(const FlightOptions& options) {
     services::transport::TransportOptions out;
     out.domain = options.domain;
-    out.participant = "rehearsal";
+    out.participant = kListener;
     return services::transport::open_transport("inproc", out);
   }
 
+  static constexpr char kListener[] = "rehearsal";
+
   std::ofstream out_;
+  bool heard_all_ = false;
   services::Node node_;
   std::thread thread_;
 };

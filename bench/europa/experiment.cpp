@@ -50,7 +50,8 @@ Flown Experiment::flown(Strategy strategy, double bias, std::uint64_t seed,
     settings = {.repairs = false, .optimizes = false, .schedules_again = false};
   if (setting_.without.contains("repair")) settings.repairs = false;
   if (setting_.without.contains("optimize")) settings.optimizes = false;
-  settings.robust = setting_.robust && strategy == Strategy::replanning;
+  if (setting_.robust && strategy == Strategy::replanning)
+    settings.search = planner::utility_htn::cycle::Search::robust;
   settings.downlinks = setting_.downlinks;
   model::Network network = network_;
   if (setting_.without.contains("learning"))

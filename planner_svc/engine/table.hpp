@@ -31,8 +31,10 @@ struct TableEntry {
   std::function<std::unique_ptr<Checker>()> make_checker;
   /// Serves an engine whose plans leave decisions to itself; empty: they leave none. It may throw as MakeStepped does.
   std::function<std::unique_ptr<DecisionResolver>(const Setup&)> make_resolver{};
-  /// The ways to search that a mission may name for it (Request::resolvers); none: it has one alone.
+  /// The ways to search that a mission may name for it (Request::resolvers, Setup::resolvers); none: it has one alone.
   std::vector<std::string> resolvers{};
+  /// Throws std::invalid_argument, with the remedy, for some of these that do not go together; empty: all do.
+  std::function<void(const std::vector<std::string>&)> check_resolvers{};
   /// Of an engine with models of its own: the functions that one asks for, in its order. The model is the text that a
   /// mission has of its file, the name that of the file where the text names none. One that cannot be read asks for
   /// none.

@@ -6,6 +6,7 @@
 
 #include "planner_svc/utility_htn/adapter/fit.hpp"
 #include "planner_svc/utility_htn/adapter/products.hpp"
+#include "planner_svc/utility_htn/adapter/resolvers.hpp"
 #include "planner_svc/utility_htn/assessor/subway_assessor.hpp"
 
 namespace roci::planner::utility_htn::adapter {
@@ -32,9 +33,12 @@ UtilityEngine::UtilityEngine(const engine::Setup& setup, model::Network network,
       network_(std::move(network)),
       chains_(flattening::flatten_all(network_)),
       assessor_(std::make_unique<assessor::SubwayAssessor>(network_, chains_)),
-      scheduler_(search::make_scheduler("nearest")),
       settings_(settings),
-      delivery_(network_) {}
+      delivery_(network_) {
+  const Resolvers chosen = read_resolvers(setup.resolvers);
+  scheduler_ = search::make_scheduler(chosen.scheduler);
+  if (chosen.search != cycle::Search::once) settings_.search = chosen.search;
+}
 
 UtilityEngine::~UtilityEngine() = default;
 

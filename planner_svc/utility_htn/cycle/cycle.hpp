@@ -24,13 +24,20 @@ enum class Activity { commit, consolidate, schedule, repair, optimize };
 /// Returns the part's name, as above.
 const char* to_string(Activity part);
 
+/// How plans are looked for.
+enum class Search {
+  once,     ///< to the network's bound on exploration (R92–R97)
+  anytime,  ///< in passes that grow to that bound; says how much more utility there may be at most
+  robust,   ///< judged by the worst of more, less and predicted energy
+};
+
 /// Says what a mission may choose (R82, R102).
 struct Settings {
   bool repairs = true;
   bool optimizes = true;
   bool downlinks = true;        ///< data without a downlink are not generated (R127); otherwise all get home
   bool schedules_again = true;  ///< also after the first time; otherwise the first plan is all there is
-  bool robust = false;          ///< plans are judged by the worst of more, less and predicted energy
+  Search search = Search::once;
   /// What was observed must differ from what was foreseen by this share of the timeline's first value before
   /// the cycle optimizes anew.
   double noticeable = 0.005;
@@ -138,6 +145,7 @@ class Cycle {
   };
   search::Problem problem_for(temporal::Time now, const std::set<model::TaskIndex>& candidates,
                               std::span<const double> newest);
+  search::Outcome search_in_passes(const search::Problem& problem, Report& report) const;
   Found plan_for(temporal::Time now, const std::set<model::TaskIndex>& candidates, Report& report,
                  const search::Plan* known = nullptr);
   void adopt(const search::Plan& plan);

@@ -4,12 +4,19 @@
 #include <utility>
 
 #include "planner_svc/utility_htn/cycle/cycle.hpp"
+#include "planner_svc/utility_htn/search/anytime.hpp"
 #include "planner_svc/utility_htn/search/robust.hpp"
 
 namespace roci::planner::utility_htn::cycle {
 
 using model::TaskIndex;
 using temporal::Duration, temporal::Time;
+
+namespace {
+
+constexpr std::uint64_t kFirstPass = 64;  // entries; each pass takes twice as many
+
+}  // namespace
 
 search::Problem Cycle::problem_for(Time now, const std::set<TaskIndex>& candidates,
                                    std::span<const double> newest) {
@@ -30,6 +37,17 @@ search::Problem Cycle::problem_for(Time now, const std::set<TaskIndex>& candidat
   return problem;
 }
 
+// What earlier passes explored counts, too.
+search::Outcome Cycle::search_in_passes(const search::Problem& problem, Report& report) const {
+  search::Progress best = search::search_anytime(
+      problem, {.first_entries = kFirstPass, .all_entries = network_.exploration_bound});
+  report.notes.push_back("the best plan found has utility " + to_text(best.outcome.plan.utility) +
+                         ", and none has more than " + to_text(best.bound) + " (gap " + to_text(best.gap) +
+                         ")");
+  best.outcome.statistics.entries = best.entries;
+  return std::move(best.outcome);
+}
+
 Cycle::Found Cycle::plan_for(Time now, const std::set<TaskIndex>& candidates, Report& report,
                              const search::Plan* known) {
   const std::vector<double> newest = values_now(now);
@@ -37,8 +55,9 @@ Cycle::Found Cycle::plan_for(Time now, const std::set<TaskIndex>& candidates, Re
   const auto beats = [](const auto& worth, double cost, const auto& known_worth, double known_cost) {
     return worth > known_worth || (worth == known_worth && cost < known_cost - 1e-6);
   };
-  if (!settings_.robust) {
-    search::Outcome outcome = search::search(problem);
+  if (settings_.search != Search::robust) {
+    search::Outcome outcome =
+        settings_.search == Search::anytime ? search_in_passes(problem, report) : search::search(problem);
     report.explored += outcome.statistics.entries;
     const search::Plan& plan = outcome.plan;
     const bool better = known == nullptr || beats(plan.utility, plan.cost, known->utility, known->cost);

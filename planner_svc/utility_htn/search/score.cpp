@@ -11,7 +11,8 @@ using temporal::RankVector;
 double rounded(double value) {
   constexpr double kParts = 1e9;
   const double whole = std::round(value * kParts);
-  return std::abs(whole) < 1e15 ? whole / kParts : value;  // beyond that a double has no billionths
+  return std::abs(whole) < 1e15 ? whole / kParts + 0.0
+                                : value;  // beyond that a double has no billionths; −0 is 0
 }
 
 RankVector rounded(const RankVector& utility) {

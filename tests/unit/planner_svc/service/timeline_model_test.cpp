@@ -137,6 +137,10 @@ TEST_F(TimelineModelTest, TheMissionNamesResolversAndThreads) {
               HasSubstr("has no resolvers to choose from"));
   EXPECT_THAT(fault("engine: timeline_htn, resolvers: []"), HasSubstr("there is no resolver in it"));
   EXPECT_THAT(fault("engine: timeline_htn, threads: 0"), HasSubstr("a search runs on 1 to 64 threads"));
+  EXPECT_EQ(fault("engine: utility_htn, resolvers: [earliest, anytime]"), "");
+  EXPECT_THAT(fault("engine: utility_htn, resolvers: [anytime, robust]"),
+              HasSubstr("mission.yaml:1:43: 'anytime' and 'robust' are two ways to search; name one of them"));
+  EXPECT_THAT(fault("engine: utility_htn, resolvers: [nearest, earliest]"), HasSubstr("are two schedulers"));
 }
 
 const std::string kGate = R"yaml(domain: gate

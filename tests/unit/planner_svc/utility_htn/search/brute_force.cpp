@@ -41,8 +41,9 @@ RankVector billionths(const RankVector& utility) {
 
 }  // namespace
 
-Plan best_by_brute_force(const Problem& problem) {
+Plan best_by_brute_force(const Problem& problem, std::vector<double>& most) {
   Plan best;
+  most.assign(8, 0.0);
   std::set<model::TaskIndex> used;
   const std::function<void(const Plan&, const Timelines&)> extend = [&](const Plan& plan,
                                                                         const Timelines& lines) {
@@ -72,6 +73,8 @@ Plan best_by_brute_force(const Problem& problem) {
       }
       if (!allowed) continue;
       next.utility = billionths(next.utility);
+      for (std::size_t rank = 0; rank < most.size(); ++rank)
+        most[rank] = std::max(most[rank], next.utility[rank]);
       if (next.utility > best.utility || (next.utility == best.utility && next.cost < best.cost - 1e-6))
         best = next;
       used.insert(chain.task);

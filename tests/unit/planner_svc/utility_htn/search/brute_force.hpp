@@ -7,8 +7,9 @@
 
 namespace roci::planner::utility_htn::search {
 
-/// Returns the plan of greatest utility, then least cost, that comes about by adding chains one after the other.
-Plan best_by_brute_force(const Problem& problem);
+/// Returns the plan of greatest utility, then least cost, that comes about by adding chains one after the other. `most`
+/// gets the greatest score of any plan at each rank.
+Plan best_by_brute_force(const Problem& problem, std::vector<double>& most);
 
 /// Draws three to four requests of one or two chains with windows, gaps, phases and the arm; `sites`: they sample two
 /// sites, in which a first sample opens what the others need.

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "planner_svc/utility_htn/assessor/subway_assessor.hpp"
+#include "planner_svc/utility_htn/search/bound.hpp"
 
 namespace {
 
@@ -13,16 +14,20 @@ using search::Outcome, search::Plan, search::Problem, search::Toy;
 constexpr std::uint64_t kUnbounded = 1'000'000'000;
 
 void compare(const Problem& problem, std::uint64_t seed, std::uint64_t& planned) {
-  const Plan expected = search::best_by_brute_force(problem);
+  std::vector<double> most;
+  const Plan expected = search::best_by_brute_force(problem, most);
   const Outcome found = search::search(problem, kUnbounded);
   ASSERT_TRUE(found.complete) << seed;
   EXPECT_EQ(found.plan.utility, expected.utility)
       << seed << ": " << to_text(found.plan.utility) << " instead of " << to_text(expected.utility);
   EXPECT_NEAR(found.plan.cost, expected.cost, 1e-6) << seed;
+  const auto bound = search::utility_bound(problem);
+  for (std::size_t rank = 0; rank < most.size(); ++rank)
+    EXPECT_GE(bound[rank], most[rank]) << seed << " " << rank;
   planned += found.plan.placed.size();
 }
 
-TEST(AgainstBruteForce, TheSearchWithoutABoundFindsTheBestPlan) {
+TEST(AgainstBruteForce, TheSearchWithoutABoundFindsTheBestPlanAndNoPlanExceedsTheBound) {
   std::uint64_t planned = 0;
   for (std::uint64_t seed = 0; seed < 300; ++seed) {
     std::mt19937_64 random(seed);
