@@ -25,8 +25,8 @@ struct Setup {
   std::string model;   ///< of the mission, in the engine's own language; empty: it needs none
   /// Is the file from which that was read, or the newest of the ground; what the model includes lies beside it.
   std::filesystem::path model_file{};
-  std::vector<std::string>
-      resolvers{};  ///< ways to plan that the mission names for it, of those in the table
+  /// Ways to plan that the mission names for it, of those in the table.
+  std::vector<std::string> resolvers{};
 };
 
 /// The newest value of a timeline, as its owner measured it.
