@@ -4,6 +4,7 @@
 #include <utility>
 
 namespace roci::services::vendors::inproc {
+
 ReaderEnd::ReaderEnd(transport::EndpointDescription description, transport::ReaderEvents events,
                      std::shared_ptr<Dispatcher> dispatcher, Dispatcher::Endpoint id,
                      const transport::Guid& guid)

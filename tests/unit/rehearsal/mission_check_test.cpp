@@ -24,6 +24,17 @@ TEST(MissionCheck, QuarryAndItsBeaconAreSoundAndWhatCannotBePlannedHereIsSaid) {
   EXPECT_EQ(report.plans.not_tried.front().why, "engine 'search' reads no PDDL");
 }
 
+// Also of those whose programs the build brings: stand-ins are there for them.
+TEST(MissionCheck, TheSourcesOfTheTestsMissionsAreSound) {
+  std::size_t missions = 0;
+  for (const auto& entry : fs::directory_iterator(ROCI_SOURCE_DIR "/tests/missions")) {
+    if (!fs::exists(entry.path() / "mission.yaml")) continue;
+    ++missions;
+    EXPECT_THAT(printed(check_mission(entry.path())), IsEmpty()) << entry.path();
+  }
+  EXPECT_GE(missions, 8U);
+}
+
 class PlanetarySlip : public ::testing::TestWithParam<Slip> {};
 
 TEST_P(PlanetarySlip, IsTheOneFinding) { expect_found(kPlanetary, GetParam()); }

@@ -74,7 +74,7 @@ TEST(TimelineModelFaults, AnUnknownTypeIsTheOneFaultOfWhatIsDeclaredWithIt) {
   const std::vector<Case> cases{
       {"{place: waypoint}, observed", "{place: waypont}, observed", "m.yaml:20:47: "},
       {drive, with(drive, "to: waypoint", "to: waypont"), "m.yaml:23:42: "},
-      {"complex, parameters: {from: waypoint", "complex, parameters: {from: waypont", "m.yaml:14:50: "},
+      {"complex, parameters: {from: waypoint", "complex, parameters: {from: waypont", "m.yaml:14:52: "},
       {"edge: {arguments: [waypoint, waypoint]", "edge: {arguments: [waypoint, waypont]", "m.yaml:6:32: "},
       {"metres: {arguments: [waypoint, waypoint]", "metres: {arguments: [waypont, waypoint]",
        "m.yaml:8:24: "},
