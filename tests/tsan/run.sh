@@ -19,6 +19,10 @@ over_vendors=(unit_services_vendors contract_transport contract_check contract_c
 # Of some programs other cases than those that their transport's name tells.
 declare -A cases=([unit_timeline_htn_search]='Resolvers.*' [unit_services_vendors]='*')
 
+# Over the vendors two cases are left out: one measures the process's memory, most of which is the sanitizer's here, and
+# one sends two megabytes, which a vendor's thread reads under suppressed reports: they take longer than the case waits.
+not_over_vendors='Transports/Instances.WhatIsForgottenTakesNoMemory/*:Transports/Isolation.ATwoMegabyteSampleArrivesWhole/cyclonedds_to_fastdds'
+
 race_free() {  # OPTIONS FILTER PROGRAM: without address randomization, which this sanitizer of GCC 12 cannot always take
   echo "tsan: $3 $2" >&2
   TSAN_OPTIONS="halt_on_error=1 exitcode=66 second_deadlock_stack=1 history_size=4 $1" \
@@ -35,7 +39,7 @@ case ${1:-} in
     ;;
   vendors)
     for program in ${only:-"${over_vendors[@]}"}; do
-      race_free "suppressions=$here/vendors.txt" "${cases[$program]:-*fastdds*:*cyclonedds*}" "$program"
+      race_free "suppressions=$here/vendors.txt" "${cases[$program]:-*fastdds*:*cyclonedds*}-$not_over_vendors" "$program"
     done
     ;;
   *) sed -n '2,6s/^# //p' "$0" >&2; exit 2 ;;
