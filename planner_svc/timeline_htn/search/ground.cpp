@@ -134,6 +134,8 @@ void Ground::measure_footprints() {
       for (const model::Need& need : state.needs) footprints_[c] |= ComponentSet{1} << need.state.component;
   }
   for (const model::Behaviour& behaviour : model_->behaviours) {
+    for (const auto& condition : behaviour.conditions)
+      looked_at_ |= ComponentSet{1} << condition.state.component;
     if (!behaviour.achieves) continue;
     ComponentSet& set = footprints_[behaviour.achieves->component];
     for (const auto& subgoal : behaviour.subgoals) set |= ComponentSet{1} << subgoal.state.component;
@@ -152,6 +154,7 @@ void Ground::measure_footprints() {
   for (Index c = 0; c < count; ++c)
     if (model::is_predicted(*model_, c)) predicted_ |= ComponentSet{1} << c;
   for (ComponentSet& set : footprints_) set &= ~predicted_;
+  looked_at_ &= ~predicted_;
 }
 
 const State& Ground::definition(StateId state) const {

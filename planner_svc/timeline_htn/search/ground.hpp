@@ -61,6 +61,8 @@ class Ground {
   /// Returns the components that bringing about some state of this one may touch or look at;
   /// what no plan changes is none of them.
   ComponentSet footprint(Index component) const { return footprints_[component]; }
+  /// Returns the components that conditions of behaviours look at, without those that are predicted.
+  ComponentSet looked_at() const { return looked_at_; }
   /// Returns the components whose timelines are predicted.
   ComponentSet predicted() const { return predicted_; }
   bool is_predicted(Index component) const { return (predicted_ >> component & 1U) != 0; }
@@ -88,6 +90,7 @@ class Ground {
   std::unordered_map<StateId, std::vector<Index>> distances_;  // from a state, by local number
   std::vector<ComponentSet> footprints_;
   ComponentSet predicted_ = 0;
+  ComponentSet looked_at_ = 0;
   std::size_t bytes_ = 0;
 };
 

@@ -262,6 +262,13 @@ bool PartialPlan::passed(Index component, StateId state, Index path_from) const 
   return false;
 }
 
+bool PartialPlan::passed_to_rest(Index component, StateId state) const {
+  for (Index token = current_[component]; token != begun_[component] && tokens_[token].cause == kNone;
+       token = tokens_[token].before)
+    if (tokens_[token].state == state) return true;
+  return false;
+}
+
 std::vector<Index> PartialPlan::need_variables(Index token) const {
   std::vector<Index> out = ground_->at(tokens_[token].state).state.objects;
   out.resize(out.size() + ground_->definition(tokens_[token].state).free.size(), kNone);
@@ -346,14 +353,17 @@ bool PartialPlan::attach(Index activity, Index index) {
   return true;
 }
 
+// A state on the way to the one that the activity wants.
+bool PartialPlan::pass(Index activity, StateId state) {
+  if (activities_[activity].path_from == kNone)
+    set(Field::path, activity, static_cast<Index>(tokens_.size()));
+  return step_between(state, activity, activities_[activity].parent, true);
+}
+
 // The next state on the way to the one that the activity wants, which may be that itself.
 bool PartialPlan::go_on(Index activity, StateId state) {
   const Activity wanted = activities_[activity];
-  const Index from = wanted.path_from == kNone ? static_cast<Index>(tokens_.size()) : wanted.path_from;
-  if (state != wanted.state) {
-    if (wanted.path_from == kNone) set(Field::path, activity, from);
-    return step_between(state, activity, wanted.parent, true);
-  }
+  if (state != wanted.state) return pass(activity, state);
   if (ground_->at(state).kind == StateKind::resting)
     return append(state, kNone, activity) != kNone && attach(activity, current_[component(activity)]);
   const Index token = append(state, activity, activity);
@@ -439,15 +449,16 @@ bool PartialPlan::meet_need(Index needing, Index need, Index other) {
   return false;
 }
 
-bool PartialPlan::path_to_need(StateId state) {
+bool PartialPlan::path_to_need(StateId state, bool passing) {
   const Urgent item = urgents_[urgent_];
   pop();
   const Index cause = tokens_[item.subject].cause;
   const Index parent = cause == kNone ? kNone : activities_[cause].parent;
   const Index component = ground_->at(state).state.component;
-  if (state != item.goal) push(item);
+  const bool there = state == item.goal && !passing;
+  if (!there) push(item);
   if (!step_between(state, cause, parent, false)) return false;
-  return state != item.goal || meet_need(item.subject, item.need, current_[component]);
+  return !there || meet_need(item.subject, item.need, current_[component]);
 }
 
 // Lets what needs a predicted state, or is to begin in one, do so at the time of this one.
@@ -472,8 +483,8 @@ bool PartialPlan::take(const Step& step) {
   obstacle_ = {};
   if (apply(step)) return true;
   if (obstacle_.kind != Obstacle::Kind::none) return false;
-  const bool placing =
-      step.kind == StepKind::attach || step.kind == StepKind::append || step.kind == StepKind::decompose;
+  const bool placing = step.kind == StepKind::attach || step.kind == StepKind::append ||
+                       step.kind == StepKind::pass || step.kind == StepKind::decompose;
   return refuse({Obstacle::Kind::time, placing ? goal_of(step.subject) : kNone,
                  placing ? activities_[step.subject].state : kNone, kNone, kNone, kNone});
 }
@@ -484,10 +495,14 @@ bool PartialPlan::apply(const Step& step) {
       return attach(step.subject, step.first);
     case StepKind::append:
       return go_on(step.subject, step.first);
+    case StepKind::pass:
+      return pass(step.subject, step.first);
     case StepKind::decompose:
       return decompose(step.subject, step.first, step.second);
     case StepKind::path_to_need:
-      return path_to_need(step.first);
+      return path_to_need(step.first, false);
+    case StepKind::pass_to_need:
+      return path_to_need(step.first, true);
     case StepKind::rest:
       return step_between(step.first, kNone, kNone, false);
     case StepKind::nest:

@@ -63,11 +63,13 @@ struct Urgent {
 enum class StepKind : std::uint8_t {
   attach,
   append,
+  pass,  ///< append the wanted state as one on the way, to come again
   nest,
   decompose,
   need_here,
   need_path,
   path_to_need,
+  pass_to_need,
   rest,
   condition_here
 };
@@ -168,6 +170,8 @@ class PartialPlan {
   Index component(Index activity) const { return ground_->at(activities_[activity].state).state.component; }
   /// Returns whether a state was passed already on the path that began at this token.
   bool passed(Index component, StateId state, Index path_from) const;
+  /// Returns whether it was passed on the way to rest on which the timeline is.
+  bool passed_to_rest(Index component, StateId state) const;
   /// Returns the variables of a need: those of the state, others kNone.
   std::vector<Index> need_variables(Index token) const;
   /// Tells why the last step could not be taken.
@@ -215,6 +219,7 @@ class PartialPlan {
   bool step_between(StateId state, Index cause, Index parent, bool complex_permitted);
   bool attach(Index activity, Index token);
   bool go_on(Index activity, StateId state);
+  bool pass(Index activity, StateId state);
   bool decompose(Index activity, Index behaviour, Index binding);
   bool conditions_hold(Index activity, const model::Behaviour& behaviour, const std::vector<Index>& objects);
   bool follow(Index component, const model::Pattern& pattern, const std::vector<Index>& objects,
@@ -225,7 +230,7 @@ class PartialPlan {
   bool add_part_constraints(Index activity, const model::Behaviour& behaviour,
                             const std::vector<Index>& objects, Index first);
   bool meet_need(Index token, Index need, Index other);
-  bool path_to_need(StateId state);
+  bool path_to_need(StateId state, bool passing);
   bool refuse(Obstacle obstacle);
   bool apply(const Step& step);
   bool take_window(const Step& step);

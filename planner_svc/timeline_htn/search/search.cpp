@@ -18,6 +18,8 @@ constexpr std::uint64_t kBeforeReachability = 20'000;
 
 constexpr int kPassWithDetours = 1;
 constexpr int kPassThatDropsNothing = 2;
+constexpr int kPassWithRounds = 3;
+constexpr int kLastPass = 4;  // with rounds, and drops nothing
 
 std::uint64_t mix(std::uint64_t x) {
   x ^= x >> 30U;
@@ -176,15 +178,20 @@ bool Search::is_hopeless(std::size_t memory_bytes, const std::function<bool()>& 
   return never_reached_.has_value();
 }
 
-// Whether the passes so far have left out something.
-bool Search::may_pass_again() const {
-  return (pass_ < kPassWithDetours && successors_.left_out()) ||
-         (pass_ < kPassThatDropsNothing && count_.repeated > 0 &&
-          (plan_->refusals_by_time() > 0 || successors_.passed_by()));
+bool Search::drops_nothing() const { return pass_ == kPassThatDropsNothing || pass_ == kLastPass; }
+
+// The next pass that finds what those so far have left out; this one: none does.
+int Search::pass_to_come() const {
+  const bool late = plan_->refusals_by_time() > 0 || successors_.passed_by();
+  const bool dropped = late && count_.repeated > repeated_before_;
+  if (pass_ < kPassWithDetours && successors_.left_out()) return kPassWithDetours;
+  if (pass_ < kPassThatDropsNothing && dropped) return kPassThatDropsNothing;
+  if (pass_ < kPassWithRounds && late && successors_.round_left_out()) return kPassWithRounds;
+  return pass_ == kPassWithRounds && dropped ? kLastPass : pass_;
 }
 
 bool Search::is_later_for_nothing(const Node& node) const {
-  if (windows_.empty() || pass_ == kPassThatDropsNothing || node.parent == kNone) return false;
+  if (windows_.empty() || drops_nothing() || node.parent == kNone) return false;
   const auto windows = windows_.find(node.parent);
   return windows != windows_.end() && node.step.first != windows->second.first &&
          plan_->refusals_by_time() == windows->second.refusals;
@@ -192,8 +199,10 @@ bool Search::is_later_for_nothing(const Node& node) const {
 
 // Starts again with what the pass before has left out.
 void Search::next_pass() {
-  pass_ = pass_ < kPassWithDetours && successors_.left_out() ? kPassWithDetours : kPassThatDropsNothing;
+  pass_ = pass_to_come();
+  repeated_before_ = count_.repeated;
   successors_.permit_detours();
+  if (pass_ >= kPassWithRounds) successors_.permit_rounds();
   start();
 }
 
@@ -246,7 +255,7 @@ Outcome Search::run(std::uint64_t evaluations, std::size_t memory_bytes,
     }
     while (!open_.empty() && open_.begin()->second.empty()) open_.erase(open_.begin());
     if (open_.empty()) {
-      if (!may_pass_again() || is_hopeless(memory_bytes, cancelled)) return state_ = Outcome::exhausted;
+      if (pass_to_come() == pass_ || is_hopeless(memory_bytes, cancelled)) return state_ = Outcome::exhausted;
       next_pass();
       continue;
     }
@@ -264,7 +273,7 @@ Outcome Search::run(std::uint64_t evaluations, std::size_t memory_bytes,
       note(plan_->obstacle());
       continue;
     }
-    if (pass_ < kPassThatDropsNothing && !seen_.insert(signature()).second) {
+    if (!drops_nothing() && !seen_.insert(signature()).second) {
       ++count_.repeated;
       continue;
     }

@@ -59,10 +59,13 @@ std::vector<Index> goal_order(const model::Problem& problem);
 /// Is a greedy best-first search with deferred evaluation; blind it is depth-first. It is resumable, and the same
 /// model, resolver and budgets give the same steps.
 ///
-/// It searches in up to three passes, each of which finds more and takes longer. The first goes straight from state to
+/// It searches in up to five passes, each of which finds more and takes longer. The first goes straight from state to
 /// state of a timeline, and drops a plan whose timelines and open activities are those of one that was seen, whatever
-/// its times. The second takes detours. Where time has refused a step, what was dropped may be missed, so the third
-/// drops nothing. So it is complete, as far as the ancestors of a complex state do not hold that state again.
+/// its times. The second takes detours, and lets timelines go to rest in any order. Where time has refused a step, what
+/// was dropped may be missed, so the third drops nothing. Where time refuses steps still, the fourth lets a timeline also
+/// leave a state that is wanted and come back to it, so that what is placed later finds it ended, or another one in
+/// between; and the fifth drops nothing of that. So it is complete, as far as the ancestors of a complex state do not
+/// hold that state again.
 ///
 /// Before it takes detours, or where the first pass takes long,
 /// it looks once whether a relaxed reachability proves that there is no plan.
@@ -96,7 +99,8 @@ class Search {
   std::optional<Obstacle> out_of_reach();
   // Whether it is proved that no pass finds a plan. It is looked at once.
   bool is_hopeless(std::size_t memory_bytes, const std::function<bool()>& cancelled);
-  bool may_pass_again() const;
+  bool drops_nothing() const;
+  int pass_to_come() const;
   // Whether a step takes a later time of a predicted state, and time was in the way of nothing behind the first one.
   bool is_later_for_nothing(const Node& node) const;
   void next_pass();
@@ -132,6 +136,7 @@ class Search {
   bool looked_at_ = false;  // whether the relaxed reachability was
   std::size_t farthest_ = 0;
   int pass_ = 0;
+  std::uint64_t repeated_before_ = 0;  // this pass
   Outcome state_ = Outcome::searching;
   Count count_;
 };

@@ -150,26 +150,46 @@ void Successors::place(const PartialPlan& plan, Index index, std::vector<Step>& 
   const Activity& activity = plan.activities()[index];
   if (activity.nested) return out.push_back({StepKind::nest, index, 0, 0});
   const Index component = plan.component(index);
-  if (plan.current_state(component) == activity.state &&
-      ground_->at(activity.state).kind == StateKind::resting) {
+  const Token& current = plan.tokens()[plan.current(component)];
+  const bool passing = current.cause == index;
+  if (current.state == activity.state && !passing && ground_->at(activity.state).kind == StateKind::resting) {
     out.push_back({StepKind::attach, index, plan.current(component), 0});
-    // One that is to end may do so before it is wanted, and come again.
-    if (plan.tokens()[plan.current(component)].ended == 0) return;
+    // It may end before it is wanted, and come again: because something asks for its end, or may do so later.
+    if (current.ended == 0 && !may_go_round(component)) return;
   }
   const Index path_from =
       activity.path_from == kNone ? static_cast<Index>(plan.tokens().size()) : activity.path_from;
   const auto states = towards(plan, component, activity.state, path_from, true);
   for (const StateId state : states) out.push_back({StepKind::append, index, state, 0});
+  if (may_pass(plan, activity.state, path_from, states))
+    out.push_back({StepKind::pass, index, activity.state, 0});
   if (states.empty())
     obstacle_ = {Obstacle::Kind::no_path,      activity.goal, activity.state, kNone, kNone,
                  plan.current_state(component)};
   attach_back(plan, index, out);
 }
 
-// What waited for others may be met by a default state that ended just as they did.
+// A timeline may leave a state and come back to it, since something else may have to find that state ended, or another one
+// in between, earlier than it is wanted. Conditions are not to be brought about in this way.
+bool Successors::may_go_round(Index component) {
+  if ((ground_->footprint(component) & ground_->looked_at()) != 0) return false;
+  round_left_out_ = round_left_out_ || !rounds_;
+  return rounds_;
+}
+
+// Whether the wanted state may come about on the way, once, and again at its end.
+bool Successors::may_pass(const PartialPlan& plan, StateId goal, Index path_from,
+                          const std::vector<StateId>& states) {
+  const Index component = ground_->at(goal).state.component;
+  return ground_->at(goal).kind != StateKind::complex && std::ranges::find(states, goal) != states.end() &&
+         !plan.passed(component, goal, path_from) && may_go_round(component);
+}
+
+// What waited for others, or is a part of what did, may be met by a default state that ended just as they did.
 void Successors::attach_back(const PartialPlan& plan, Index index, std::vector<Step>& out) {
   const Activity& activity = plan.activities()[index];
-  if (ground_->at(activity.state).kind != StateKind::resting || plan.before(index).empty()) return;
+  const bool waited = !plan.before(index).empty() || activity.parent != kNone;
+  if (ground_->at(activity.state).kind != StateKind::resting || !waited) return;
   Index token = plan.tokens()[plan.current(plan.component(index))].before;
   for (int back = 0; back < kTokensLookedBack && token != kNone;
        ++back, token = plan.tokens()[token].before) {
@@ -187,8 +207,10 @@ void Successors::urgent(const PartialPlan& plan, const Urgent& item, std::vector
   if (item.kind == UrgentKind::need) return needs(plan, item, out);
   if (item.kind == UrgentKind::condition) return conditions(plan, item, out);
   const Index component = ground_->at(item.goal).state.component;
-  for (const StateId state : towards(plan, component, item.goal, item.path_from, false))
-    out.push_back({StepKind::path_to_need, item.subject, state, item.need});
+  const auto states = towards(plan, component, item.goal, item.path_from, false);
+  for (const StateId state : states) out.push_back({StepKind::path_to_need, item.subject, state, item.need});
+  if (may_pass(plan, item.goal, item.path_from, states))
+    out.push_back({StepKind::pass_to_need, item.subject, item.goal, item.need});
 }
 
 void Successors::decompositions(const PartialPlan& plan, Index activity, std::vector<Step>& out) {
@@ -260,12 +282,13 @@ void Successors::needs(const PartialPlan& plan, const Urgent& item, std::vector<
     for (const StateId goal : ground_->reachable(plan.current_state(component), need.state, variables))
       if (goal != plan.current_state(component))
         out.push_back({StepKind::need_path, item.subject, goal, item.need});
-  // A simple state that holds at another time, or one that is to end, may be left and come again.
+  // A simple state that holds at another time, or one that is to end or may have to, may be left and come again.
   const StateId held = plan.current_state(component);
   int nested = 0;
   for (const Urgent* one = &item; one != nullptr; one = plan.below(*one)) ++nested;
   const bool ends = ground_->at(held).kind == StateKind::simple || plan.tokens()[current].ended != 0;
-  if (ends && nested <= kMostNestedNeeds && ground_->fits(held, need.state, variables))
+  if (nested <= kMostNestedNeeds && ground_->fits(held, need.state, variables) &&
+      (ends || may_go_round(component)))
     out.push_back({StepKind::need_path, item.subject, held, item.need});
   Index token = plan.tokens()[current].before;
   for (int back = 0; back < kTokensLookedBack && token != kNone; ++back, token = plan.tokens()[token].before)
@@ -304,22 +327,34 @@ void Successors::conditions(const PartialPlan& plan, const Urgent& item, std::ve
 }
 
 void Successors::rest(const PartialPlan& plan, std::vector<Step>& out) {
+  bool first = true;
   for (Index c = 0; c < ground_->model().components.size(); ++c) {
     const StateId state = plan.current_state(c);
     const StateKind kind = ground_->at(state).kind;
     const bool ended = plan.tokens()[plan.current(c)].ended != 0;
     if ((kind == StateKind::resting || kind == StateKind::error) && !ended) continue;
+    if (!first && !detours_) {
+      left_out_ = true;  // what the others need on their ways may have to come before this one rests
+      return;
+    }
     std::vector<std::pair<Index, StateId>> found;
     for (const StateId after : std::vector<StateId>(ground_->next(state))) {
       const Index left = ground_->distance_to_rest(after);
-      if (left != kNone && ground_->at(after).kind != StateKind::complex &&
-          (ended || left < ground_->distance_to_rest(state)))
+      if (left == kNone || ground_->at(after).kind == StateKind::complex) continue;
+      const bool nearer = ended || left < ground_->distance_to_rest(state);
+      if (nearer || (detours_ && !plan.passed_to_rest(c, after)))
         found.emplace_back(left, after);
+      else
+        left_out_ = true;
     }
     std::ranges::stable_sort(found, {}, &std::pair<Index, StateId>::first);
     for (const auto& [left, after] : found) out.push_back({StepKind::rest, c, after, 0});
-    if (out.empty()) obstacle_ = {Obstacle::Kind::no_path, kNone, kNone, kNone, kNone, state};
-    return;  // the others come later
+    if (found.empty()) {
+      out.clear();
+      obstacle_ = {Obstacle::Kind::no_path, kNone, kNone, kNone, kNone, state};
+      return;
+    }
+    first = false;
   }
 }
 

@@ -34,6 +34,10 @@ class Successors {
   void permit_detours() { detours_ = true; }
   /// Returns whether there were longer ways that were not given.
   bool left_out() const { return left_out_; }
+  /// From now on a timeline may also leave a state that is wanted and come back to it.
+  void permit_rounds() { rounds_ = true; }
+  /// Returns whether there were such ways that were not given.
+  bool round_left_out() const { return round_left_out_; }
   /// Returns whether predicted states were not given since they end before what needs them can begin,
   /// by the times of the plan.
   bool passed_by() const { return passed_by_; }
@@ -62,6 +66,8 @@ class Successors {
   // Successors from which the goal can be reached, the nearest first.
   std::vector<StateId> towards(const PartialPlan& plan, Index component, StateId goal, Index path_from,
                                bool complex_permitted);
+  bool may_go_round(Index component);
+  bool may_pass(const PartialPlan& plan, StateId goal, Index path_from, const std::vector<StateId>& states);
 
   Ground* ground_;
   Bindings* bindings_;
@@ -70,6 +76,8 @@ class Successors {
   std::unique_ptr<Decompositions> below_;
   bool detours_ = false;
   bool left_out_ = false;
+  bool rounds_ = false;
+  bool round_left_out_ = false;
   bool passed_by_ = false;
   Obstacle obstacle_;
 };

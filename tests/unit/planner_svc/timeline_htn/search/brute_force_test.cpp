@@ -79,6 +79,33 @@ TEST(TimelineSearchAgainstBruteForce, AGoalMayBeMetByADefaultStateThatEndsAsWhat
   EXPECT_EQ(tally.solvable, 1);
 }
 
+// What is placed later may have to find a wanted state ended, or another one in between: the timeline leaves that state,
+// also one that it passes on its way, and comes back to it.
+TEST(TimelineSearchAgainstBruteForce, ATimelineMayLeaveWhatIsWantedAndComeBackToIt) {
+  Tally tally;
+  for (const std::uint64_t seed : {6689, 7787, 8791, 8910}) compare(seed, RandomProblem(seed), tally);
+  for (const std::uint64_t seed : {4646, 7489, 10172})
+    compare(seed, RandomProblem::with_windows(seed), tally);
+  for (const std::uint64_t seed : {5411, 7278, 8163, 10059, 13032, 13193})
+    compare(seed, RandomProblem::with_late_goals(seed), tally);
+  EXPECT_EQ(tally.solvable, 13);
+}
+
+// On its way to rest one timeline needs a state that another one can be in only before it rests, or on a longer way.
+TEST(TimelineSearchAgainstBruteForce, TimelinesGoToRestInAnyOrderAndByAnyWay) {
+  Tally tally;
+  compare(598, RandomProblem(598), tally);
+  compare(10201, RandomProblem::with_late_goals(10201), tally);
+  EXPECT_EQ(tally.solvable, 2);
+}
+
+// A goal waits for another, and so do its parts: one of them is met by a default state that ended just as that one did.
+TEST(TimelineSearchAgainstBruteForce, APartMayBeMetByADefaultStateThatEndsAsWhatItsGoalWaitsForDoes) {
+  Tally tally;
+  compare(11487, RandomProblem::with_windows(11487), tally);
+  EXPECT_EQ(tally.solvable, 1);
+}
+
 // A default state may be brought about before the window of its goal opens, and must last until then, or come again.
 TEST(TimelineSearchAgainstBruteForce, BringsAboutBeforeTheWindowWhatRestsInIt) {
   Tally tally;
