@@ -294,8 +294,8 @@ class SimService final : public services::Service, private owner::Driver {
   void record_effects() {
     for (const world::Effect& one : world_.take_effects()) {
       effects_ << nlohmann::json{{"time_us", one.at.count()},    {"robot", one.robot},
-                                 {"component", one.component},   {"kind", one.deed.kind},
-                                 {"object", one.deed.object},    {"commander", one.cause.commander},
+                                 {"component", one.component},   {"kind", one.effect.kind},
+                                 {"object", one.effect.object},    {"commander", one.cause.commander},
                                  {"epoch", one.cause.epoch},     {"activity", one.cause.activity},
                                  {"attempt", one.cause.attempt}, {"incarnation", node_.options().incarnation}}
                       .dump()

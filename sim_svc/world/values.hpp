@@ -78,7 +78,7 @@ struct Effect {
   temporal::Time at{};
   std::string robot;
   std::string component;
-  PhysicalEffect deed;
+  PhysicalEffect effect;
   TaskKey cause;
 };
 

@@ -78,8 +78,8 @@ TEST(Commands, EveryEffectIsToldWithWhatCausedIt) {
   run.advance(seconds(60));
   const auto effects = run.world.take_effects();
   ASSERT_EQ(effects.size(), 1u);
-  EXPECT_EQ(effects[0].deed.kind, "image");
-  EXPECT_EQ(effects[0].deed.object, "one");
+  EXPECT_EQ(effects[0].effect.kind, "image");
+  EXPECT_EQ(effects[0].effect.object, "one");
   EXPECT_EQ(effects[0].component, "camera");
   EXPECT_EQ(effects[0].cause.activity, "i");
   // Past the owner's rules the same key is done again, and that is seen.
