@@ -189,7 +189,9 @@ bool Successors::may_pass(const PartialPlan& plan, StateId goal, Index path_from
 void Successors::attach_back(const PartialPlan& plan, Index index, std::vector<Step>& out) {
   const Activity& activity = plan.activities()[index];
   const bool waited = !plan.before(index).empty() || activity.parent != kNone;
-  if (ground_->at(activity.state).kind != StateKind::resting || !waited) return;
+  // What mends an error leaves no values behind that nothing asked for, so not when it is on its way already.
+  const bool begun = activity.path_from != kNone && plan.is_mending(index);
+  if (ground_->at(activity.state).kind != StateKind::resting || !waited || begun) return;
   Index token = plan.tokens()[plan.current(plan.component(index))].before;
   for (int back = 0; back < kTokensLookedBack && token != kNone;
        ++back, token = plan.tokens()[token].before) {
