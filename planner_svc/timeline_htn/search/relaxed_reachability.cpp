@@ -154,8 +154,8 @@ class Relaxation {
   }
 
   // Begins again where all that mends errors is complete: the goals come after that (false: nothing was mended).
-  // A timeline whose last state is known goes on from there; the others from wherever they came to. What was there earlier may
-  // still meet a need, or a goal to rest, if it ended just then.
+  // A timeline whose last state is known goes on from there; the others from wherever they came to. What was there
+  // earlier may still meet a need, or a goal to rest, if it ended just then.
   bool start_mended() {
     LastStates last(ground_, successors_);
     std::vector<std::vector<StateId>> begin(timelines_.size());

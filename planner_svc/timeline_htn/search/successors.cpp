@@ -169,8 +169,8 @@ void Successors::place(const PartialPlan& plan, Index index, std::vector<Step>& 
   attach_back(plan, index, out);
 }
 
-// A timeline may leave a state and come back to it, since something else may have to find that state ended, or another one
-// in between, earlier than it is wanted. Conditions are not to be brought about in this way.
+// A timeline may leave a state and come back to it, since something else may have to find that state ended, or another
+// one in between, earlier than it is wanted. Conditions are not to be brought about in this way.
 bool Successors::may_go_round(Index component) {
   if ((ground_->footprint(component) & ground_->looked_at()) != 0) return false;
   round_left_out_ = round_left_out_ || !rounds_;
