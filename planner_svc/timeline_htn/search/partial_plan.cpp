@@ -305,7 +305,6 @@ Index PartialPlan::append(StateId state, Index activity, Index cause) {
   return token;
 }
 
-// Whether the activity is a behaviour that mends an error, or below one.
 bool PartialPlan::is_mending(Index activity) const {
   while (activity != kNone && activities_[activity].parent != kNone) activity = activities_[activity].parent;
   return activity != kNone && activity < mending_.size();

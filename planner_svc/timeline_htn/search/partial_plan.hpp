@@ -163,6 +163,8 @@ class PartialPlan {
   bool complete(Index activity) const {
     return activities_[activity].placed && activities_[activity].open_parts == 0;
   }
+  /// Returns whether the activity is a behaviour that mends an error, or below one.
+  bool is_mending(Index activity) const;
   /// Returns whether everything that ends before it is complete, and its timeline is free.
   bool ready(Index activity) const;
   std::vector<Index> before(Index activity) const;
@@ -209,7 +211,6 @@ class PartialPlan {
   void widen(model::Bounds& bounds, const model::Behaviour& behaviour, Index variable,
              const model::Pattern& pattern, const std::vector<Index>& objects);
   Index append(StateId state, Index activity, Index cause);
-  bool is_mending(Index activity) const;
   bool wait_for_mending(Index activity, Index token);
   void push(Urgent item);
   void pop();

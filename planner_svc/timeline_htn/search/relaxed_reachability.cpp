@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "planner_svc/timeline_htn/search/decompositions.hpp"
+#include "planner_svc/timeline_htn/search/last_states.hpp"
 #include "planner_svc/timeline_htn/search/search.hpp"
 #include "planner_svc/timeline_htn/search/transition_graph.hpp"
 
@@ -54,9 +55,12 @@ class Relaxation {
       start();
       if (!propagate()) return std::nullopt;
       if (auto out = unmet()) return out;
-      if (!leave_out()) return std::nullopt;
+      if (!leave_out()) break;
     }
-    return std::nullopt;
+    if (causes_ == 0) return std::nullopt;
+    start(false);
+    if (!propagate() || !start_mended() || !propagate()) return std::nullopt;
+    return unmet();
   }
 
  private:
@@ -75,6 +79,7 @@ class Relaxation {
     std::vector<Way> ways;
     bool known = false;  ///< its ways
     bool done = false;
+    bool asked = true;  ///< for the goals, where errors are mended before
   };
   /// Is a group of states that are asked for and that the same states lead to.
   struct Wish {
@@ -90,11 +95,15 @@ class Relaxation {
     std::vector<StateId> known;  // that are predicted, with the initial one
     std::optional<TransitionGraph> graph;
     std::vector<StateId> reached;
+    std::vector<StateId> earlier;  // reached while errors are mended
     std::vector<Wish> wishes;
     Index changes = 0;  // of the wishes
   };
   struct Mark {
     bool reached = false;
+    bool earlier = false;  // reached while errors are mended
+    bool over =
+        false;  // complex, complete before the goals begin: it may be left, its parts come about no more
     bool done = false;      // of a complex state
     bool left_out = false;  // in no plan
     bool left = false;      // what follows without a wish was added
@@ -116,12 +125,10 @@ class Relaxation {
     return *timeline.graph;
   }
 
-  void start() {
+  // With the goals, or with what mends errors alone.
+  void start(bool with_goals = true) {
     for (Mark& one : marks_) one = {.left_out = one.left_out};
-    for (Task& task : tasks_) {
-      task.done = false;
-      for (Way& way : task.ways) way.begun = false;
-    }
+    forget_tasks(0, with_goals);
     for (Timeline& timeline : timelines_) {
       timeline.reached = {timeline.initial};
       timeline.wishes.clear();
@@ -130,7 +137,70 @@ class Relaxation {
       for (const StateId state : timeline.known)
         if (!std::exchange(mark(state).reached, true)) timeline.reached.push_back(state);
     }
+    if (with_goals) ask_for_goals();
+  }
+
+  void ask_for_goals() {
     for (const model::Goal& goal : model_.problem->goals) ask_for(ground_.find(ground_of(goal.state, {})), 0);
+  }
+
+  // All but what is triggered comes about anew, and where it is not asked for (false) only if it is from now on.
+  void forget_tasks(std::size_t first, bool asked) {
+    for (std::size_t t = first; t < tasks_.size(); ++t) {
+      tasks_[t].done = false;
+      tasks_[t].asked = asked || t < causes_;
+      for (Way& way : tasks_[t].ways) way.begun = false;
+    }
+  }
+
+  // Begins again where all that mends errors is complete: the goals come after that (false: nothing was mended).
+  // A timeline whose last state is known goes on from there; the others from wherever they came to. What was there
+  // earlier may still meet a need, or a goal to rest, if it ended just then.
+  bool start_mended() {
+    LastStates last(ground_, successors_);
+    std::vector<std::vector<StateId>> begin(timelines_.size());
+    bool known = false;
+    for (Index c = 0; c < timelines_.size(); ++c) {
+      const auto left = timelines_[c].predicted ? std::nullopt : left_by_mending(last, c);
+      known = known || left;
+      begin[c] = left.value_or(timelines_[c].reached);
+    }
+    if (!known) return false;
+    for (Mark& one : marks_) one = {.earlier = one.reached, .done = one.done, .left_out = one.left_out};
+    forget_tasks(causes_, false);
+    for (Index c = 0; c < timelines_.size(); ++c) {
+      Timeline& timeline = timelines_[c];
+      timeline.earlier = std::exchange(timeline.reached, std::move(begin[c]));
+      timeline.wishes.clear();
+      timeline.changes = 0;
+      for (const StateId state : timeline.reached) {
+        mark(state).reached = true;
+        mark(state).over = is_complex(state);
+      }
+    }
+    ask_for_goals();
+    return true;
+  }
+
+  // Where a timeline can stand then: where the last of what mends one cause or another has left it, or where it began.
+  std::optional<std::vector<StateId>> left_by_mending(LastStates& last, Index component) {
+    std::set<StateId> out;
+    bool may_stay = true;
+    for (std::size_t cause = 0; cause < causes_; ++cause) {
+      bool stays = false;
+      for (const Way& way : tasks_[cause].ways) {
+        const auto done = [&](StateId part) { return is_done(part, 0); };
+        if (!way.begun || way.left_out || !std::ranges::all_of(way.parts, done)) continue;
+        const LastStates::Left left = last.of(way.behaviour, way.parts, component);
+        if (left.touched && !left.states) return std::nullopt;
+        stays = stays || !left.touched;
+        for (const StateId state : left.states.value_or(std::vector<StateId>{}))
+          if (mark(state).reached) out.insert(state);
+      }
+      may_stay = may_stay && stays;
+    }
+    if (may_stay) out.insert(timelines_[component].initial);
+    return std::vector<StateId>(out.begin(), out.end());
   }
 
   // Goes on until nothing is added; false: it was cancelled, or takes too much memory.
@@ -151,7 +221,8 @@ class Relaxation {
   }
 
   bool reach(StateId state) {
-    if (mark(state).reached || mark(state).left_out) return false;
+    if (mark(state).reached) return std::exchange(mark(state).over, false);
+    if (mark(state).left_out) return false;
     mark(state).reached = true;
     timelines_[component(state)].reached.push_back(state);
     const model::State& definition = ground_.definition(state);
@@ -227,8 +298,9 @@ class Relaxation {
 
   bool add_task(StateId state, ComponentSet above) {
     const auto [entry, added] = task_of_.emplace(std::pair(state, above), tasks_.size());
-    if (added) tasks_.push_back({state, above, {}, false, false});
-    return added;
+    if (!added) return !std::exchange(tasks_[entry->second].asked, true);
+    tasks_.push_back({state, above, {}, false, false});
+    return true;
   }
 
   // A goal, or a part of what lies below states of these components.
@@ -285,17 +357,20 @@ class Relaxation {
   }
 
   bool begins(StateId state, ComponentSet above) {
-    return state == kNone || (above & bit(component(state))) != 0 || mark(state).reached;
+    return state == kNone || (above & bit(component(state))) != 0 ||
+           (mark(state).reached && !mark(state).over);
   }
 
   bool is_done(StateId part, ComponentSet above) {
-    if (!is_complex(part)) return mark(part).reached;
+    if (!is_complex(part))
+      return mark(part).reached || (mark(part).earlier && kind(part) == StateKind::resting);
     const auto task = task_of_.find({part, above});
     return task != task_of_.end() && tasks_[task->second].done;
   }
 
   bool carry_out(std::size_t index) {
-    if (tasks_[index].done || !begins(tasks_[index].state, tasks_[index].above)) return false;
+    if (tasks_[index].done || !tasks_[index].asked || !begins(tasks_[index].state, tasks_[index].above))
+      return false;
     if (!tasks_[index].known) find_ways(tasks_[index]);
     const ComponentSet above = below(tasks_[index]);
     bool more = false;
@@ -341,10 +416,12 @@ class Relaxation {
     const model::State& definition = ground_.definition(state);
     std::vector<Index> variables = ground_.at(state).state.objects;
     variables.resize(variables.size() + definition.free.size(), kNone);
-    for (const model::Need& need : definition.needs)
-      if (std::ranges::none_of(timelines_[need.state.component].reached,
-                               [&](StateId other) { return ground_.fits(other, need.state, variables); }))
+    for (const model::Need& need : definition.needs) {
+      const Timeline& timeline = timelines_[need.state.component];
+      const auto fits = [&](StateId other) { return ground_.fits(other, need.state, variables); };
+      if (std::ranges::none_of(timeline.reached, fits) && std::ranges::none_of(timeline.earlier, fits))
         return &need;
+    }
     return nullptr;
   }
 

@@ -22,7 +22,8 @@ struct NeverReached {
 /// where a goal, a part of a behaviour or a need asks for a state of it, by transitions on a way to that state; a
 /// behaviour begins where states that fit its conditions are reached; a complex state is left where all parts of one of
 /// its behaviours come about. What begins but cannot come about is in no plan,
-/// so it is left out and all is done again, a few times.
+/// so it is left out and all is done again, a few times. Where errors are mended first, the goals are then followed
+/// once more, from where the mending leaves the timelines.
 ///
 /// It takes about one step for each state and transition that it meets,
 /// and gives up at so many bytes or when it is cancelled.

@@ -61,11 +61,11 @@ std::vector<Index> goal_order(const model::Problem& problem);
 ///
 /// It searches in up to five passes, each of which finds more and takes longer. The first goes straight from state to
 /// state of a timeline, and drops a plan whose timelines and open activities are those of one that was seen, whatever
-/// its times. The second takes detours, and lets timelines go to rest in any order. Where time has refused a step, what
-/// was dropped may be missed, so the third drops nothing. Where time refuses steps still, the fourth lets a timeline also
-/// leave a state that is wanted and come back to it, so that what is placed later finds it ended, or another one in
-/// between; and the fifth drops nothing of that. So it is complete, as far as the ancestors of a complex state do not
-/// hold that state again.
+/// its times. The second takes detours, and lets timelines go to rest in any order. Where time has refused a step,
+/// what was dropped may be missed, so the third drops nothing. Where time refuses steps still, the fourth lets a
+/// timeline also leave a state that is wanted and come back to it, so that what is placed later finds it ended, or
+/// another one in between; and the fifth drops nothing of that. So it is complete, as far as the ancestors of a complex
+/// state do not hold that state again.
 ///
 /// Before it takes detours, or where the first pass takes long,
 /// it looks once whether a relaxed reachability proves that there is no plan.

@@ -169,8 +169,8 @@ void Successors::place(const PartialPlan& plan, Index index, std::vector<Step>& 
   attach_back(plan, index, out);
 }
 
-// A timeline may leave a state and come back to it, since something else may have to find that state ended, or another one
-// in between, earlier than it is wanted. Conditions are not to be brought about in this way.
+// A timeline may leave a state and come back to it, since something else may have to find that state ended, or another
+// one in between, earlier than it is wanted. Conditions are not to be brought about in this way.
 bool Successors::may_go_round(Index component) {
   if ((ground_->footprint(component) & ground_->looked_at()) != 0) return false;
   round_left_out_ = round_left_out_ || !rounds_;
@@ -189,7 +189,9 @@ bool Successors::may_pass(const PartialPlan& plan, StateId goal, Index path_from
 void Successors::attach_back(const PartialPlan& plan, Index index, std::vector<Step>& out) {
   const Activity& activity = plan.activities()[index];
   const bool waited = !plan.before(index).empty() || activity.parent != kNone;
-  if (ground_->at(activity.state).kind != StateKind::resting || !waited) return;
+  // What mends an error leaves no values behind that nothing asked for, so not when it is on its way already.
+  const bool begun = activity.path_from != kNone && plan.is_mending(index);
+  if (ground_->at(activity.state).kind != StateKind::resting || !waited || begun) return;
   Index token = plan.tokens()[plan.current(plan.component(index))].before;
   for (int back = 0; back < kTokensLookedBack && token != kNone;
        ++back, token = plan.tokens()[token].before) {

@@ -243,7 +243,8 @@ TEST(FasterModel, ClosedLegsAreGoneRoundWithoutASearch) {
 
 // All legs are closed but one far off, at which routes begin: nothing takes the rovers there, which is proved and said.
 TEST(FasterModel, WhereTheOnlyLegLeftIsFarOffThatIsProved) {
-  for (const std::string problem : {"problem", "scout_lost", "hazard_detected", "scout_no_path"}) {
+  for (const std::string problem :
+       {"problem", "scout_lost", "hazard_detected", "scout_no_path", "primary_blocked"}) {
     model::Model model = load("missions/faster/" + problem + ".yaml");
     auto& legs = std::ranges::find(model.relations, "leg", &model::Relation::name)->rows;
     const auto far = [&](const std::vector<Index>& row) {

@@ -28,6 +28,12 @@ class RandomProblem {
     out.with_late_goals_ = true;
     return out;
   }
+  /// Begins in an error, which one of one or two behaviours mends before the goals come; behaviours have conditions.
+  static RandomProblem with_error(std::uint64_t seed) {
+    RandomProblem out(seed, true);
+    out.with_error_ = true;
+    return out;
+  }
 
   std::string text() {
     const std::string q = component("q", ""), p = component("p", "q");
@@ -39,7 +45,7 @@ class RandomProblem {
     return "domain: random\ncomponents:\n  m:\n    layer: abstract\n    states: {idle: {kind: default}, t: "
            "{kind: complex}, "
            "u: {kind: complex}}\n    transitions: [idle <-> t, idle <-> u]\n" +
-           q + p + window + "behaviours:\n" + behaviours() + problem();
+           q + p + window + "behaviours:\n" + behaviours() + mending() + problem();
   }
 
  private:
@@ -56,6 +62,8 @@ class RandomProblem {
     if (two_rest) states.push_back("r");
     std::string out = "  " + name + ":\n    layer: primitive\n    states:\n      idle: {kind: default}\n";
     if (two_rest) out += "      r: {kind: default}\n";
+    const bool begins_in_error = with_error_ && name == "p";
+    if (begins_in_error) out += "      e: {kind: error}\n";
     for (const char* simple : {"a", "b"}) {
       const int shortest = number(1, 4);
       out += "      " + std::string(simple) + ": {kind: simple, duration_s: [" + std::to_string(shortest) +
@@ -75,6 +83,7 @@ class RandomProblem {
              {"idle", "b"}, {"a", "b"}, {"b", "a"}, {"a", "idle"}, {"b", "idle"}})
       if (chance(50)) transitions += ", \"" + from + " -> " + to + "\"";
     if (two_rest) transitions += ", \"r -> " + one_of({"idle", "a", "b"}) + "\"";
+    if (begins_in_error) transitions += ", \"e -> " + one_of({"idle", "idle", "a"}) + "\"";
     states.push_back("idle");
     return out + "    transitions: [" + transitions + "]\n";
   }
@@ -118,9 +127,26 @@ class RandomProblem {
     return out;
   }
 
+  // What mends the error of p.
+  std::string mending() {
+    std::string out;
+    for (int b = with_error_ ? number(1, 2) : 0; b > 0; --b) {
+      const int count = number(1, 3);
+      out += "  mend" + std::to_string(b) + ":\n    triggers: [p.e]\n    subgoals: {";
+      for (int s = 0; s < count; ++s)
+        out += (s == 0 ? "g" : ", g") + std::to_string(s) + ": " +
+               (chance(30) ? "m." + one_of({"t", "u"}) : subgoal());
+      out += "}\n";
+      if (count > 1 && chance(70))
+        out += std::string("    constraints: [g0 before g1") + (count > 2 ? " before g2]\n" : "]\n");
+    }
+    return out;
+  }
+
   std::string problem() {
     std::string out = "problem:\n  horizon_s: " + std::to_string(number(8, 24)) +
-                      "\n  initial: {m: idle, p: idle, q: idle" + windows() + "}\n  goals:\n";
+                      "\n  initial: {m: idle, p: " + (with_error_ ? "e" : "idle") + ", q: idle" + windows() +
+                      "}\n  goals:\n";
     const int goals = number(1, 2);
     for (int g = 0; g < goals; ++g) {
       const int opens = with_late_goals_ ? number(4, 16) : number(0, 4);
@@ -150,6 +176,7 @@ class RandomProblem {
   bool with_conditions_;
   bool with_windows_ = false;
   bool with_late_goals_ = false;
+  bool with_error_ = false;
   std::map<std::string, std::vector<std::string>> states_;
 };
 

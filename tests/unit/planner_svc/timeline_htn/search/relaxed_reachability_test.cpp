@@ -45,6 +45,26 @@ TEST(RelaxedReachability, IsNeverWrongWhereBruteForceOrTheSearchFindsAPlan) {
   EXPECT_GT(solvable, 200);
 }
 
+// Where an error is mended first, the goals begin from where that leaves the timelines.
+TEST(RelaxedReachability, IsNeverWrongBehindWhatMendsAnError) {
+  int proved = 0, solvable = 0;
+  for (std::uint64_t seed = 0; seed < 900; ++seed) {
+    const std::string text = RandomProblem::with_error(seed).text();
+    mission::Findings findings;
+    const auto model = reading::parse_model({{"random", text}}, findings);
+    if (!model) continue;
+    const auto proof = never(*model);
+    Search search(*model, {});
+    search.prove_by_search_alone();
+    const bool found = search.run(20'000, 0, [] { return false; }) == Outcome::solved;
+    ASSERT_FALSE(proof && found) << "seed " << seed << "\n" << text << proof->reason;
+    proved += proof ? 1 : 0;
+    solvable += found ? 1 : 0;
+  }
+  EXPECT_GT(proved, 60);
+  EXPECT_GT(solvable, 200);
+}
+
 const std::string kRover = R"yaml(domain: d
 types: [place]
 objects: {place: [a, b, c]}
