@@ -20,6 +20,8 @@ constexpr int kPassWithDetours = 1;
 constexpr int kPassThatDropsNothing = 2;
 constexpr int kPassWithRounds = 3;
 constexpr int kLastPass = 4;  // with rounds, and drops nothing
+// Steps that the passes with rounds may take, beside as many as those before them have taken.
+constexpr std::uint64_t kLeastForRounds = 20'000;
 
 std::uint64_t mix(std::uint64_t x) {
   x ^= x >> 30U;
@@ -202,7 +204,10 @@ void Search::next_pass() {
   pass_ = pass_to_come();
   repeated_before_ = count_.repeated;
   successors_.permit_detours();
-  if (pass_ >= kPassWithRounds) successors_.permit_rounds();
+  if (pass_ == kPassWithRounds) {
+    successors_.permit_rounds();
+    rounds_until_ = 2 * count_.evaluated + kLeastForRounds;
+  }
   start();
 }
 
@@ -259,6 +264,7 @@ Outcome Search::run(std::uint64_t evaluations, std::size_t memory_bytes,
       next_pass();
       continue;
     }
+    if (pass_ >= kPassWithRounds && count_.evaluated >= rounds_until_) return state_ = Outcome::exhausted;
     if (count_.evaluated == kBeforeReachability && is_hopeless(memory_bytes, cancelled))
       return state_ = Outcome::exhausted;
     const Index node = open_.begin()->second.back();

@@ -64,8 +64,9 @@ std::vector<Index> goal_order(const model::Problem& problem);
 /// its times. The second takes detours, and lets timelines go to rest in any order. Where time has refused a step,
 /// what was dropped may be missed, so the third drops nothing. Where time refuses steps still, the fourth lets a
 /// timeline also leave a state that is wanted and come back to it, so that what is placed later finds it ended, or
-/// another one in between; and the fifth drops nothing of that. So it is complete, as far as the ancestors of a complex
-/// state do not hold that state again.
+/// another one in between; and the fifth drops nothing of that. These two take about as many steps as those before,
+/// since plans that need such rounds are rare and proofs without them are not. So it is complete but for such rounds,
+/// as far as the ancestors of a complex state do not hold that state again.
 ///
 /// Before it takes detours, or where the first pass takes long,
 /// it looks once whether a relaxed reachability proves that there is no plan.
@@ -137,6 +138,7 @@ class Search {
   std::size_t farthest_ = 0;
   int pass_ = 0;
   std::uint64_t repeated_before_ = 0;  // this pass
+  std::uint64_t rounds_until_ = 0;     // steps in all
   Outcome state_ = Outcome::searching;
   Count count_;
 };
