@@ -20,7 +20,7 @@ over_vendors=(unit_services_vendors contract_transport contract_check contract_c
 declare -A cases=([unit_timeline_htn_search]='Resolvers.*' [unit_services_vendors]='*')
 
 # Over the vendors two cases are left out: one measures the process's memory, most of which is the sanitizer's here, and
-# one sends two megabytes, which a vendor's thread reads under suppressed reports: they take longer than the case waits.
+# one sends two megabytes, for which the sanitizer, busy with reports that it suppresses, takes longer than the case waits.
 not_over_vendors='Transports/Instances.WhatIsForgottenTakesNoMemory/*:Transports/Isolation.ATwoMegabyteSampleArrivesWhole/cyclonedds_to_fastdds'
 
 race_free() {  # OPTIONS FILTER PROGRAM: without address randomization, which this sanitizer of GCC 12 cannot always take
