@@ -110,6 +110,20 @@ std::vector<Test> renumbered(std::vector<Test> tests, const std::vector<Term>& t
   return tests;
 }
 
+// Adds to each set those of its members, until nothing changes.
+void close(std::vector<ComponentSet>& sets) {
+  for (bool more = true; more;) {
+    more = false;
+    for (ComponentSet& set : sets) {
+      ComponentSet all = set;
+      for (Index c = 0; c < sets.size(); ++c)
+        if ((all >> c & 1U) != 0) all |= sets[c];
+      more = more || all != set;
+      set = all;
+    }
+  }
+}
+
 }  // namespace
 
 GroundState ground_of(const Pattern& pattern, const std::vector<Index>& objects) {
@@ -124,33 +138,30 @@ Ground::Ground(const Model& model)
   measure_footprints();
 }
 
-// What a component touches: the closure over needs, behaviours, conditions.
+// What a component moves: the closure over needs and behaviours; what it touches: that over conditions, too.
 void Ground::measure_footprints() {
   const std::size_t count = model_->components.size();
-  footprints_.resize(count);
+  moved_by_.resize(count);
   for (Index c = 0; c < count; ++c) {
-    footprints_[c] |= ComponentSet{1} << c;
+    moved_by_[c] |= ComponentSet{1} << c;
     for (const State& state : model_->components[c].states)
-      for (const model::Need& need : state.needs) footprints_[c] |= ComponentSet{1} << need.state.component;
+      for (const model::Need& need : state.needs) moved_by_[c] |= ComponentSet{1} << need.state.component;
   }
   for (const model::Behaviour& behaviour : model_->behaviours) {
-    for (const auto& condition : behaviour.conditions)
-      looked_at_ |= ComponentSet{1} << condition.state.component;
     if (!behaviour.achieves) continue;
-    ComponentSet& set = footprints_[behaviour.achieves->component];
+    ComponentSet& set = moved_by_[behaviour.achieves->component];
     for (const auto& subgoal : behaviour.subgoals) set |= ComponentSet{1} << subgoal.state.component;
-    for (const auto& condition : behaviour.conditions) set |= ComponentSet{1} << condition.state.component;
   }
-  for (bool more = true; more;) {
-    more = false;
-    for (Index c = 0; c < count; ++c) {
-      ComponentSet all = footprints_[c];
-      for (Index d = 0; d < count; ++d)
-        if ((all >> d & 1U) != 0) all |= footprints_[d];
-      more = more || all != footprints_[c];
-      footprints_[c] = all;
+  close(moved_by_);
+  footprints_ = moved_by_;
+  for (const model::Behaviour& behaviour : model_->behaviours) {
+    for (const auto& condition : behaviour.conditions) {
+      looked_at_ |= ComponentSet{1} << condition.state.component;
+      if (behaviour.achieves)
+        footprints_[behaviour.achieves->component] |= ComponentSet{1} << condition.state.component;
     }
   }
+  close(footprints_);
   for (Index c = 0; c < count; ++c)
     if (model::is_predicted(*model_, c)) predicted_ |= ComponentSet{1} << c;
   for (ComponentSet& set : footprints_) set &= ~predicted_;

@@ -61,6 +61,8 @@ class Ground {
   /// Returns the components that bringing about some state of this one may touch or look at;
   /// what no plan changes is none of them.
   ComponentSet footprint(Index component) const { return footprints_[component]; }
+  /// Returns the components whose timelines may move when some state of this one is brought about.
+  ComponentSet moved_by(Index component) const { return moved_by_[component]; }
   /// Returns the components that conditions of behaviours look at, without those that are predicted.
   ComponentSet looked_at() const { return looked_at_; }
   /// Returns the components whose timelines are predicted.
@@ -88,7 +90,7 @@ class Ground {
   std::vector<std::vector<StateId>> by_component_;
   std::vector<Successors> next_;
   std::unordered_map<StateId, std::vector<Index>> distances_;  // from a state, by local number
-  std::vector<ComponentSet> footprints_;
+  std::vector<ComponentSet> moved_by_, footprints_;
   ComponentSet predicted_ = 0;
   ComponentSet looked_at_ = 0;
   std::size_t bytes_ = 0;

@@ -45,30 +45,6 @@ bool takes_time(const model::State& state) {
 
 }  // namespace
 
-LastStates::LastStates(Ground& ground, const Successors& successors)
-    : ground_(&ground), successors_(&successors), moved_(ground.model().components.size(), 0) {
-  const model::Model& model = ground.model();
-  for (Index c = 0; c < moved_.size(); ++c) {
-    moved_[c] |= ComponentSet{1} << c;
-    for (const model::State& state : model.components[c].states)
-      for (const model::Need& need : state.needs) moved_[c] |= ComponentSet{1} << need.state.component;
-  }
-  for (const Behaviour& behaviour : model.behaviours)
-    for (const model::Subgoal& subgoal : behaviour.subgoals)
-      if (behaviour.achieves)
-        moved_[behaviour.achieves->component] |= ComponentSet{1} << subgoal.state.component;
-  for (bool more = true; more;) {
-    more = false;
-    for (ComponentSet& set : moved_) {
-      ComponentSet all = set;
-      for (Index d = 0; d < moved_.size(); ++d)
-        if ((all >> d & 1U) != 0) all |= moved_[d];
-      more = more || all != set;
-      set = all;
-    }
-  }
-}
-
 LastStates::Left LastStates::of(Index index, const std::vector<StateId>& parts, Index component) {
   const Behaviour& behaviour = ground_->model().behaviours[index];
   const std::vector<Index> subgoals = reckoned_with(behaviour);

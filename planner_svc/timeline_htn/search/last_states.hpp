@@ -13,7 +13,7 @@ namespace roci::planner::timeline_htn::search {
 /// Knows nothing of how a timeline was before, nor of time: only which parts may move it, and which of them comes last.
 class LastStates {
  public:
-  LastStates(Ground& ground, const Successors& successors);
+  LastStates(Ground& ground, const Successors& successors) : ground_(&ground), successors_(&successors) {}
 
   /// Says what a behaviour leaves a timeline in.
   struct Left {
@@ -27,12 +27,11 @@ class LastStates {
   std::optional<std::vector<StateId>> of_part(StateId part, Index component);
   bool stays(StateId state);
   std::optional<std::vector<StateId>> of_ways(StateId state, Index component);
-  bool moves(Index by, Index component) const { return (moved_[by] >> component & 1U) != 0; }
+  bool moves(Index by, Index component) const { return (ground_->moved_by(by) >> component & 1U) != 0; }
 
   Ground* ground_;
   const Successors* successors_;
-  std::vector<ComponentSet> moved_;  // by bringing about a state of the component
-  std::set<StateId> above_;          // complex states of which the parts are being looked at
+  std::set<StateId> above_;  // complex states of which the parts are being looked at
 };
 
 }  // namespace roci::planner::timeline_htn::search

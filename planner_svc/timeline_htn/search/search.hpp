@@ -30,7 +30,7 @@ struct Resolver {
 enum class Outcome {
   searching,
   solved,
-  exhausted,  ///< proved: there is no plan
+  exhausted,  ///< there is no plan, as far as the search is complete (see Search)
   out_of_memory,
   cancelled,
 };
