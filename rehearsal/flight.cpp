@@ -65,10 +65,13 @@ class Listener {
   ~Listener() {
     node_.stop();
     thread_.join();
-    // What was said last may still be on its way to this participant; its own word comes after all of that.
+    // What was said last may still be on its way to this participant; its own word comes after all of that. Where there
+    // is no room for it, it is said again.
     const auto end = services::advertise(node_, services::topics::event);
-    end.write(services::node::make_event(v1::SEVERITY_INFO, "scenario.over", ""));
-    while (!heard_all_) node_.spin_once(std::chrono::milliseconds(100));
+    while (!heard_all_) {
+      end.write(services::node::make_event(v1::SEVERITY_INFO, "scenario.over", ""));
+      node_.spin_once(std::chrono::milliseconds(100));
+    }
   }
 
  private:
