@@ -53,10 +53,30 @@ class BackgroundReplanning : public ReactorTest {
     other_events.emplace(seconds(at_s), [this, goal] { pending.goals.push_back(goal); });
   }
 
+  // For four seconds a service is away that observes. The goal comes then, and the planner proves from what was seen
+  // before that it is out of reach.
+  void fly_while_an_observer_is_away(const GoalRequest& goal) {
+    const Planner all = planner;
+    planner = [this, all](const PlanRequest& call) {
+      return observer_is_away ? reply(Verdict::unsolvable, "not enough of it") : all(call);
+    };
+    other_events.emplace(seconds(20), [this, goal] {
+      observer_is_away = true;
+      pending.losses = {{"map_svc", "cut off", true}};
+      pending.goals.push_back(goal);
+    });
+    other_events.emplace(seconds(24), [this] {
+      observer_is_away = false;
+      pending.arrivals = {"map_svc"};
+    });
+    run(1000, robot_and({photo("1"), photo("2")}));
+  }
+
   std::vector<std::string> codes_after(const std::string& first) const {
     return {std::find(trace.begin(), trace.end(), first), trace.end()};
   }
 
+  bool observer_is_away = false;
   std::vector<std::string> problems;
   std::vector<Time> origins;
 };
@@ -197,21 +217,7 @@ TEST_F(BackgroundReplanning, AnUnavailablePlannerLeadsToThePauseAndIsAskedAgain)
 
 // What runs goes on while a service is away that observes; its return asks again at once.
 TEST_F(BackgroundReplanning, NoSoftGoalIsDroppedByAProofOfAnOldPicture) {
-  bool away = false;
-  const Planner all = planner;
-  planner = [&, all](const PlanRequest& call) {
-    return away ? reply(Verdict::unsolvable, "not enough of it") : all(call);
-  };
-  other_events.emplace(seconds(20), [&] {
-    away = true;
-    pending.losses = {{"map_svc", "cut off", true}};
-    pending.goals.push_back(photo("3", GoalClass::opportunistic));
-  });
-  other_events.emplace(seconds(24), [&] {
-    away = false;
-    pending.arrivals = {"map_svc"};
-  });
-  run(1000, robot_and({photo("1"), photo("2")}));
+  fly_while_an_observer_is_away(photo("3", GoalClass::opportunistic));
   EXPECT_EQ(std::ranges::count(trace, "plan.retry"), 1);
   EXPECT_EQ(reactor.counts().dropped, 0U);
   EXPECT_EQ(reactor.counts().achieved, 3U);
@@ -243,21 +249,7 @@ TEST_F(BackgroundReplanning, AProofOfAnOldPictureIsBelievedInTheEnd) {
 
 // Nor is what runs cancelled for such a proof, where it speaks of a hard goal.
 TEST_F(BackgroundReplanning, NothingIsCancelledByAProofOfAnOldPicture) {
-  bool away = false;
-  const Planner all = planner;
-  planner = [&, all](const PlanRequest& call) {
-    return away ? reply(Verdict::unsolvable, "not enough of it") : all(call);
-  };
-  other_events.emplace(seconds(20), [&] {
-    away = true;
-    pending.losses = {{"map_svc", "cut off", true}};
-    pending.goals.push_back(photo("3"));
-  });
-  other_events.emplace(seconds(24), [&] {
-    away = false;
-    pending.arrivals = {"map_svc"};
-  });
-  run(1000, robot_and({photo("1"), photo("2")}));
+  fly_while_an_observer_is_away(photo("3"));
   EXPECT_EQ(reactor.counts().achieved, 3U);
   EXPECT_THAT(trace, Not(Contains("cancel")));
 }
