@@ -52,8 +52,8 @@ class DueInstances {
   int depth_;
   std::vector<Instance> waiting_;  // the oldest first, and some that are not due any more
   std::unordered_set<Key> due_;    // of these
-  std::unordered_map<Key, int>
-      changes_;  // of each instance, as far as others can be older; empty unless they matter
+  // Of each instance, as far as others can be older; empty unless they matter.
+  std::unordered_map<Key, int> changes_;
   std::optional<Instance> kept_;
 };
 

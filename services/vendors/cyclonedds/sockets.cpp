@@ -187,8 +187,7 @@ GuardedOpening::GuardedOpening(std::shared_ptr<guard::Guard> guard, std::optiona
     throw transport::TransportError(
         "this build of Cyclone DDS does not let its sockets be guarded (it imports no bind, "
         "recvmsg, sendmsg, rtps_init, ddsi_new_participant or ddsi_iid_gen); use the library of Debian 12, "
-        "or "
-        "another transport with --dds");
+        "or another transport with --dds");
   }
   opening = Opening{std::move(guard), address, secure};
 }
