@@ -62,7 +62,7 @@ void OutputPublisher::send_plan(const Reactor& reactor) {
   if (const auto& executed = reactor.last_executed()) executed_.write(to_wire(*executed, executive_));
   for (const StepStatus& step : reactor.steps()) {
     steps_.write(to_wire(step, executive_, reactor.plan_version()));
-    if (!temporal::is_over(step.state)) told_steps_.insert(step.activity);
+    told_steps_.insert(step.activity);
   }
 }
 
@@ -78,21 +78,18 @@ void OutputPublisher::send(const ReactorOutputs& out, std::uint32_t version,
     send(std::move(sample));
   }
   for (const StepStatus& step : out.steps) {
-    v1::StepStatus sample = to_wire(step, executive_, version);
-    sent(steps_.write(sample));
-    if (temporal::is_over(step.state)) {
-      steps_.dispose(sample);
-      told_steps_.erase(step.activity);
-    } else {
-      told_steps_.insert(step.activity);
-    }
+    sent(steps_.write(to_wire(step, executive_, version)));
+    told_steps_.insert(step.activity);
   }
-  if (out.adopted) end_steps_outside(*out.adopted);
+  if (out.adopted)
+    end_steps_outside(*out.adopted);
+  else if (out.executed)
+    end_steps_outside({});
   if (out.executed) tell(*out.executed);
   for (const Event& event : out.events) report(event);
 }
 
-// A step that a plan foresaw and its next version does not has no last word of its own.
+// What became of a step counts until it leaves the plan: an engine that is started meanwhile goes on from there.
 void OutputPublisher::end_steps_outside(const temporal::FlexiblePlan& plan) {
   std::set<std::string> gone = std::move(told_steps_);
   told_steps_.clear();

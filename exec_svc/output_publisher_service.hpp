@@ -84,7 +84,7 @@ class OutputPublisher {
   services::Publisher<v1::GoalStatus> goal_statuses_;
   services::Publisher<v1::Plan> plans_;
   services::Publisher<v1::ExecutedPlan> executed_;
-  std::set<std::string> told_steps_;            // activities whose last word is still to come
+  std::set<std::string> told_steps_;            // activities that may still be in the plan
   std::deque<v1::ExecutedPlan> told_executed_;  // keys of those that a late joiner gets
   services::Publisher<v1::StepStatus> steps_;
   services::Publisher<v1::MissionStatus> missions_;

@@ -24,6 +24,7 @@ using ::testing::Contains;
 using ::testing::ElementsAre;
 using testing::ExecSeat;
 using ::testing::Not;
+using ::testing::Pair;
 using testing::photo_goal;
 
 struct Vendors {
@@ -67,10 +68,32 @@ class ContinuousEngine {
     });
   }
 
+  // Sends a version with 40 other activities in the place of those that the one before foresaw for later.
+  void change_its_mind() {
+    std::erase_if(plan_.activities, [](const auto& activity) { return activity.name == "later"; });
+    std::erase_if(plan_.constraints, [](const auto& constraint) { return constraint.upper == kLatest; });
+    for (int i = 0; i < 40; ++i) foresee("later-" + std::to_string(plan_.point_count));
+    send();
+  }
+
   std::vector<std::uint32_t> versions;
   std::vector<std::string> refusals;
 
  private:
+  static constexpr temporal::Time kLatest{600s};
+
+  void foresee(const std::string& id) {
+    temporal::PlanActivity later;
+    later.id = id;
+    later.name = "later";
+    later.start_point = plan_.point_count++;
+    later.end_point = plan_.point_count++;
+    later.duration_lower = later.duration_upper = temporal::seconds(1);
+    plan_.constraints.push_back({temporal::origin_point, later.start_point, temporal::ConstraintKind::window,
+                                 temporal::seconds(500), kLatest});
+    plan_.activities.push_back(later);
+  }
+
   void add(const std::string& goal) {
     temporal::PlanActivity image;
     image.id = image.name = "take-" + goal;
@@ -159,6 +182,23 @@ TEST_P(ContinuousPlanning, ADeathOfTheExecutiveCostsNoCommitment) {
   EXPECT_THAT(seat_.events, Contains("executive.resumed"));
   EXPECT_THAT(images(), ElementsAre("take-ridge 1", "take-rim 1"));
   EXPECT_EQ(seat_.mission.outcome(), "achieved");
+}
+
+// What has ended stays in the plan until its block is over, while versions come and go.
+TEST_P(ContinuousPlanning, APlannerThatStartsAnewHearsWhatHasEndedOfThePlan) {
+  seat_.send(10s, photo_goal("ridge"));
+  seat_.send(20s, photo_goal("rim"));
+  for (const auto when : {150s, 152s, 154s, 156s, 158s})
+    seat_.at(when, [this] { engine_.change_its_mind(); });
+  std::map<std::string, v1::ActivityState> steps;
+  seat_.kill_planner_at(170s, [&](services::Node& planner) {
+    services::subscribe(planner, topics::step_status,
+                        [&](const v1::StepStatus& step) { steps[step.activity()] = step.state(); });
+  });
+  seat_.run_until(190s);
+  EXPECT_THAT(engine_.refusals, ElementsAre());
+  EXPECT_THAT(steps, Contains(Pair("take-ridge", v1::ACTIVITY_SUCCEEDED)));
+  EXPECT_THAT(steps, Contains(Pair("take-rim", v1::ACTIVITY_WAITING)));
 }
 
 INSTANTIATE_TEST_SUITE_P(Transports, ContinuousPlanning,

@@ -84,6 +84,7 @@ ExecSeat::ExecSeat(const std::string& vendor, const std::string& vendor_of_other
     : folder_(made_folder(domain)),
       mission_(std::move(mission_folder)),
       vendor_(vendor),
+      vendor_of_others_(vendor_of_others),
       run_({"sim_svc", "planner_svc", "exec_svc"}, domain),
       robot_(waiting_master(run_, vendor_of_others)),
       goals_(services::advertise(robot_, topics::goal)),
@@ -133,10 +134,14 @@ void ExecSeat::kill_executive_at(temporal::Time when) {
   });
 }
 
+void ExecSeat::kill_planner_at(temporal::Time when, std::function<void(services::Node&)> begun_anew) {
+  planner_begun_anew_ = std::move(begun_anew);
+  run_.node("planner_svc").at(when, [] { throw services::Crash{}; });
+}
+
 void ExecSeat::kill_both_at(temporal::Time when) {
   kill_executive_at(when);
-  planner_killed_ = true;
-  run_.node("planner_svc").at(when, [] { throw services::Crash{}; });
+  kill_planner_at(when, [](services::Node&) {});
 }
 
 void ExecSeat::serve_plans(services::Node& planner) {
@@ -217,15 +222,15 @@ void ExecSeat::send(temporal::Time when, const v1::Goal& goal) {
 void ExecSeat::run_until(temporal::Time end) {
   robot_.at(end, [this] { robot_.stop(); });
   run_.start();
-  if (killed_) {
-    run_.wait_for_crash("exec_svc");
-    if (planner_killed_) {
-      run_.wait_for_crash("planner_svc");
-      serve_plans(run_.add("planner_svc", 2, vendor_));
-      run_.start();
-    }
-    start_executive(2);
+  if (killed_) run_.wait_for_crash("exec_svc");
+  if (planner_begun_anew_) {
+    run_.wait_for_crash("planner_svc");
+    services::Node& planner = run_.add("planner_svc", 2, vendor_of_others_);
+    serve_plans(planner);
+    planner_begun_anew_(planner);
+    run_.start();
   }
+  if (killed_) start_executive(2);
   run_.run();
 }
 

@@ -34,7 +34,9 @@ class ExecSeat {
   void send(temporal::Time when, const v1::Goal& goal);
   // The executive dies then without a word, and starts again as its next incarnation.
   void kill_executive_at(temporal::Time when);
-  // With it the planner dies, and is back before it.
+  // The planner dies; `begun_anew` is called with its next incarnation, before it runs.
+  void kill_planner_at(temporal::Time when, std::function<void(services::Node&)> begun_anew);
+  // The planner is back before the executive.
   void kill_both_at(temporal::Time when);
   void at(temporal::Time when, std::function<void()> what) { robot_.at(when, std::move(what)); }
   void run_until(temporal::Time end);
@@ -67,7 +69,7 @@ class ExecSeat {
 
   std::filesystem::path folder_;
   std::filesystem::path mission_;
-  std::string vendor_;
+  std::string vendor_, vendor_of_others_;
   services::SimRun run_;
   services::Node& robot_;
   services::Publisher<v1::Goal> goals_;
@@ -76,7 +78,7 @@ class ExecSeat {
   std::unique_ptr<services::Service> executive_;
   std::map<std::pair<std::string, std::uint32_t>, v1::CommandStage> messages_;  // the last on each key
   bool killed_ = false;
-  bool planner_killed_ = false;
+  std::function<void(services::Node&)> planner_begun_anew_;  // if it is killed
 };
 
 }  // namespace roci::exec::testing
