@@ -218,6 +218,7 @@ FlexiblePlan plan_of(const model::Network& network, const flattening::Chains& ch
     if (network.timelines[i].is_remembered())
       remember("internal." + network.timelines[i].name, value_of(network.timelines[i], past.internal[i]));
   for (const std::string& activity : frame.measured) remember("measured." + activity, true);
+  remember(kPastUntil, temporal::to_seconds(cycle.timelines().past()));
   out.point_count = points.count();
   return out;
 }

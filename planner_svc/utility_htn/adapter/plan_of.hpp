@@ -43,6 +43,9 @@ class Points {
   std::set<temporal::TimePoint> taken_;  // even ones, each with the one that follows
 };
 
+/// Names the token that says up to which mission time, in seconds, the other tokens of the past count.
+inline constexpr char kPastUntil[] = "past.until";
+
 /// Returns the plan: blocks that are not over with all their links, each not before its planned start, pushed for as
 /// long as its wait timeout; a token for each block, which holds its chain's name and number; and from the origin to
 /// Points::kPast one token for each thing of the past that is needed to go on after a restart. What was committed in
@@ -62,6 +65,8 @@ bool is_initial(const temporal::PlanActivity& activity);
 /// Is what a plan tells of the cycle that made it.
 struct Recovered {
   cycle::Past past;
+  /// When internal timelines had the values of `past`; none: the plan is of an engine that did not tell.
+  std::optional<temporal::Time> past_until{};
   std::vector<cycle::Block> blocks;
   std::uint32_t last_block = 0;
   Points points;

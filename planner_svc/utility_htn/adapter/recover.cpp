@@ -62,6 +62,10 @@ class Recovery {
       const auto number = number_of(network_.timelines[timeline], token.held);
       if (!number) foreign("value " + temporal::to_text(token.held) + " of " + std::string(rest));
       out_.past.internal[timeline] = *number;
+    } else if (name == kPastUntil) {
+      const auto* seconds = std::get_if<double>(&token.held);
+      if (seconds == nullptr) foreign("time in " + token.timeline);
+      out_.past_until = temporal::seconds(*seconds);
     } else if (name.starts_with("measured.")) {
       out_.measured.emplace(rest);
     }

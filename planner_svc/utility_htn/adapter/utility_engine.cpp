@@ -268,7 +268,9 @@ void UtilityEngine::go_on_with(const FlexiblePlan& executed, Time now) {
       initial_ = activity;
       points_.set(Points::kInitial, activity.start_point, activity.end_point);
     }
-  cycle_->resume(recovered.past, std::move(recovered.blocks), recovered.last_block, now);
+  // What ended since then has moved timelines that nobody reports.
+  const Time since = std::min(now, recovered.past_until.value_or(now));
+  cycle_->resume(recovered.past, std::move(recovered.blocks), recovered.last_block, since);
   for (const auto& [timeline, value] : std::map(newest_))
     if (!tasks_move(timeline)) hear_observation({timeline, value, now});
   versions_.resume(executed);

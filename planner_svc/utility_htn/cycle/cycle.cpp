@@ -76,14 +76,14 @@ std::string Cycle::set_value(model::ParameterIndex parameter, double value) {
   return {};
 }
 
-void Cycle::resume(const Past& past, std::vector<Block> blocks, std::uint32_t last_block, Time now) {
+void Cycle::resume(const Past& past, std::vector<Block> blocks, std::uint32_t last_block, Time since) {
   past_ = past;
   observations_.await_nothing();
   for (const TaskIndex task : past.withdrawn) requested_.erase(task);
   last_block_ = last_block;
-  timelines_ = temporal::timelines::Timelines(network_.timelines, lines_from(now));
+  timelines_ = temporal::timelines::Timelines(network_.timelines, lines_from(since));
   for (Index i = 0; i < network_.timelines.size(); ++i)
-    if (network_.timelines[i].is_remembered()) timelines_.observe(i, now, past_.internal[i]);
+    if (network_.timelines[i].is_remembered()) timelines_.observe(i, since, past_.internal[i]);
   blocks_ = std::move(blocks);
   for (const Block& one : blocks_) put_in(one);
   to_schedule_ = to_optimize_ = true;

@@ -90,8 +90,8 @@ class Cycle {
   void doubt() { to_optimize_ = true; }
   /// Takes in that the executive has no plan any more: what ran has failed, what was committed is only planned.
   void nothing_runs(temporal::Time now);
-  /// Goes on where another process stood.
-  void resume(const Past& past, std::vector<Block> blocks, std::uint32_t last_block, temporal::Time now);
+  /// Goes on where another process stood at `since`; what became of the blocks after that is told next.
+  void resume(const Past& past, std::vector<Block> blocks, std::uint32_t last_block, temporal::Time since);
 
   Report run(temporal::Time now);
 

@@ -66,5 +66,28 @@ TEST(RestartedEngine, KnowsWhatWasReportedBeforeItsRestartHoweverItHearsIt) {
       << "with the executed version";
 }
 
+// The timelines that nobody reports stand in the plan as they were when it was sent; what ended later moved them, too.
+TEST(RestartedEngine, KnowsWhatATaskHasMadeOfATimelineSinceTheVersionThatIsExecuted) {
+  UtilityEngine died = new_engine();
+  FlexiblePlan plan;
+  ASSERT_EQ(temporal::apply(*died.step(beginning()).delta, plan), "");
+  const auto dig = std::ranges::find(plan.activities, "dig", &temporal::PlanActivity::name);
+  ASSERT_NE(dig, plan.activities.end());
+
+  UtilityEngine anew = new_engine();
+  StepInputs inputs = beginning();
+  inputs.now = Time(200s);
+  inputs.executed = plan;
+  inputs.receipt->version = inputs.last_version = plan.version;
+  inputs.steps.push_back(
+      {plan.version, dig->id, {temporal::ActivityState::succeeded, Time(5s), Time(105s)}, "", 1});
+  const StepOutput out = anew.step(inputs);
+  ASSERT_TRUE(out.delta);
+  ASSERT_EQ(temporal::apply(*out.delta, plan), "");
+  const auto site = std::ranges::find(plan.tokens, "internal.site", &temporal::Token::timeline);
+  ASSERT_NE(site, plan.tokens.end());
+  EXPECT_EQ(temporal::to_text(site->held), "open");
+}
+
 }  // namespace
 }  // namespace roci::planner::utility_htn::adapter
