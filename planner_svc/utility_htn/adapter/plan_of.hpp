@@ -44,7 +44,7 @@ class Points {
 };
 
 /// Names the token that says up to which mission time, in seconds, the other tokens of the past count.
-inline constexpr char kPastUntil[] = "past.until";
+inline constexpr char kPastUntil[] = "past_until";
 
 /// Returns the plan: blocks that are not over with all their links, each not before its planned start, pushed for as
 /// long as its wait timeout; a token for each block, which holds its chain's name and number; and from the origin to
