@@ -70,12 +70,13 @@ void CycloneReader::take(const Serdata& data, const dds_sample_info_t& info, con
 }
 
 transport::Guid CycloneReader::writer_of(dds_entity_t reader, dds_instance_handle_t publication) {
-  if (const auto known = writers_.find(publication); known != writers_.end()) return known->second;
+  if (const auto known = writers_.find(publication)) return *known;
   auto* endpoint = dds_get_matched_publication_data(reader, publication);
   if (!endpoint) return {};
   const transport::Guid guid = to_guid(endpoint->key);
   dds_builtintopic_free_endpoint(endpoint);
-  return writers_[publication] = guid;
+  writers_.met(publication, guid);
+  return guid;
 }
 
 // The vendor names no writer for a match that it reports while the reader is still being created.
@@ -104,6 +105,7 @@ void CycloneReader::on_matched(dds_entity_t entity, dds_subscription_matched_sta
   auto& reader = *static_cast<CycloneReader*>(self);
   if (status.current_count_change > 0) reader.begin_with(entity, status.last_publication_handle);
   const std::lock_guard lock(reader.mutex_);
+  if (status.current_count_change < 0) reader.writers_.left(status.last_publication_handle);
   reader.matched_ = static_cast<int>(status.current_count);
   if (reader.events_.on_matched) reader.events_.on_matched(reader.matched_);
 }

@@ -3,11 +3,11 @@
 
 #include <atomic>
 #include <mutex>
-#include <unordered_map>
 
 #include "services/transport/transport.hpp"
 #include "services/vendors/cyclonedds/writer.hpp"
 #include "services/vendors/instance_table.hpp"
+#include "services/vendors/writer_guids.hpp"
 
 namespace roci::services::vendors::cyclonedds {
 
@@ -35,8 +35,7 @@ class CycloneReader : public transport::Reader {
   std::atomic<int> matched_ = 0;
   std::mutex mutex_;  // one callback at a time
   InstanceTable instances_;
-  // All that ever matched: ends come after a writer left.
-  std::unordered_map<dds_instance_handle_t, transport::Guid> writers_;
+  WriterGuids writers_;
   dds_entity_t reader_;
 };
 
