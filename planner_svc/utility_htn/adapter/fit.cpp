@@ -23,7 +23,7 @@ bool has(const Items& items, std::string_view name, Member member) {
 bool remembers(const model::Network& network, const Token& token) {
   const std::string_view name = token.timeline;
   const std::string_view rest = name.substr(std::min(name.size(), name.find('.') + 1));
-  if (name.starts_with("done.") || name.starts_with("withdrawn."))
+  if (name.starts_with("done.") || name.starts_with("withdrawn.") || name.starts_with("contingent."))
     return has(network.tasks, rest, &model::Task::id);
   if (name.starts_with("parameter.")) {
     const auto known = std::ranges::find(network.parameters, rest, &model::Parameter::name);

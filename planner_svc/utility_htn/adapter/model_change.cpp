@@ -36,12 +36,16 @@ std::optional<std::uint32_t> index_of(const Items& items, const std::string& nam
   return static_cast<std::uint32_t>(found - items.begin());
 }
 
-// Takes over what was found out: what is done, values that are no priors, and timelines as they are now.
+// Takes over what was found out: what is done, what contingencies ask for, values that are no priors, and timelines as they are now.
 cycle::Past past_for(const Network& next, const Network& before, const cycle::Cycle& cycle, Time now) {
   cycle::Past out{.values = model::priors(next)};
-  for (const model::TaskIndex task : cycle.past().done)
-    if (const auto same = index_of(next.tasks, before.tasks[task].id, &model::Task::id))
-      out.done.insert(*same);
+  const auto take_over = [&](const std::set<model::TaskIndex>& tasks, std::set<model::TaskIndex>& taken) {
+    for (const model::TaskIndex task : tasks)
+      if (const auto same = index_of(next.tasks, before.tasks[task].id, &model::Task::id))
+        taken.insert(*same);
+  };
+  take_over(cycle.past().done, out.done);
+  take_over(cycle.past().contingent, out.contingent);
   for (std::size_t i = 0; i < before.parameters.size(); ++i) {
     const double value = cycle.past().values[i];
     const auto same = index_of(next.parameters, before.parameters[i].name, &model::Parameter::name);

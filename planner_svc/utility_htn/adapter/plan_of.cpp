@@ -211,6 +211,7 @@ FlexiblePlan plan_of(const model::Network& network, const flattening::Chains& ch
   };
   for (const model::TaskIndex task : past.done) remember("done." + network.tasks[task].id, true);
   for (const model::TaskIndex task : past.withdrawn) remember("withdrawn." + network.tasks[task].id, true);
+  for (const model::TaskIndex task : past.contingent) remember("contingent." + network.tasks[task].id, true);
   for (std::size_t i = 0; i < past.values.size(); ++i)
     if (past.values[i] != network.parameters[i].prior)
       remember("parameter." + network.parameters[i].name, past.values[i]);

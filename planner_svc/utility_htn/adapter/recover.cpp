@@ -46,12 +46,17 @@ class Recovery {
     return static_cast<std::size_t>(found - items.begin());
   }
 
+  std::set<model::TaskIndex>* tasks_of(std::string_view token) {
+    if (token.starts_with("done.")) return &out_.past.done;
+    if (token.starts_with("withdrawn.")) return &out_.past.withdrawn;
+    return token.starts_with("contingent.") ? &out_.past.contingent : nullptr;
+  }
+
   void take_past(const Token& token) {
     const std::string_view name = token.timeline;
     const std::string_view rest = name.substr(std::min(name.size(), name.find('.') + 1));
-    if (name.starts_with("done.") || name.starts_with("withdrawn.")) {
-      auto& tasks = name.starts_with("done.") ? out_.past.done : out_.past.withdrawn;
-      tasks.insert(static_cast<model::TaskIndex>(index(network_.tasks, rest, &model::Task::id, "task")));
+    if (auto* const tasks = tasks_of(name); tasks != nullptr) {
+      tasks->insert(static_cast<model::TaskIndex>(index(network_.tasks, rest, &model::Task::id, "task")));
     } else if (name.starts_with("parameter.")) {
       const auto* number = std::get_if<double>(&token.held);
       if (number == nullptr) foreign("number in " + token.timeline);

@@ -254,6 +254,7 @@ void UtilityEngine::go_on_with(const FlexiblePlan& executed, Time now) {
   if (std::exchange(goes_on_, true)) {
     recovered.past.values = cycle_->past().values;
     recovered.past.withdrawn = cycle_->past().withdrawn;
+    recovered.past.contingent = cycle_->past().contingent;
     recovered.past.done.insert(cycle_->past().done.begin(), cycle_->past().done.end());
     recovered.measured.insert(measurements_.taken().begin(), measurements_.taken().end());
   }

@@ -80,6 +80,7 @@ void Cycle::resume(const Past& past, std::vector<Block> blocks, std::uint32_t la
   past_ = past;
   observations_.await_nothing();
   for (const TaskIndex task : past.withdrawn) requested_.erase(task);
+  requested_.insert(past.contingent.begin(), past.contingent.end());
   last_block_ = last_block;
   timelines_ = temporal::timelines::Timelines(network_.timelines, lines_from(since));
   for (Index i = 0; i < network_.timelines.size(); ++i)
@@ -152,6 +153,7 @@ void Cycle::forget_over(Report& report) {
     const TaskIndex task = chains_.chains[one.chain].task;
     if (!one.failed()) {
       past_.done.insert(task);
+      past_.contingent.erase(task);
     } else if (++failures_[task] >= settings_.most_failures) {
       give_up(task);
       report.notes.push_back(network_.tasks[task].id + " is withdrawn: it failed " +

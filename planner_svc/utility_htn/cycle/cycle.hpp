@@ -59,6 +59,8 @@ struct Past {
   std::set<model::TaskIndex> done{};  ///< requests that need not come again
   /// Are requests of the network that nobody asks for any more, as what failed too often.
   std::set<model::TaskIndex> withdrawn{};
+  /// Are templates that contingencies have requested (R69) and that are not done.
+  std::set<model::TaskIndex> contingent{};
   model::Values values{};          ///< as learned
   std::vector<double> internal{};  ///< by timeline: values of those that nobody reports
   friend bool operator==(const Past&, const Past&) = default;

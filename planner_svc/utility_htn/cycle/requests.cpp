@@ -14,7 +14,10 @@ using temporal::Time;
 void Cycle::edit_network(TaskIndex task) {
   const auto& contingency = network_.tasks[task].contingency;
   if (!contingency) return;
-  for (const TaskIndex one : contingency->requests) request(one);
+  for (const TaskIndex one : contingency->requests) {
+    request(one);
+    if (network_.tasks[one].is_template) past_.contingent.insert(one);
+  }
   for (const TaskIndex one : contingency->withdraws) withdraw(one);
 }
 
@@ -28,6 +31,7 @@ void Cycle::request(TaskIndex task) {
 // Templates are nobody's request until somebody asks.
 void Cycle::give_up(TaskIndex task) {
   requested_.erase(task);
+  past_.contingent.erase(task);
   if (!network_.tasks[task].is_template) past_.withdrawn.insert(task);
 }
 

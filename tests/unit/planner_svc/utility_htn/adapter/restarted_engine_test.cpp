@@ -89,5 +89,43 @@ TEST(RestartedEngine, KnowsWhatATaskHasMadeOfATimelineSinceTheVersionThatIsExecu
   EXPECT_EQ(temporal::to_text(site->held), "open");
 }
 
+// Such a template is nobody's goal; here it waits for a battery that holds more than was reported.
+TEST(RestartedEngine, KnowsWhatAContingencyHasRequested) {
+  const auto make = [] {
+    model::Network network = testing::toy_network();
+    const model::TaskIndex image = testing::task_named(network, "image");
+    network.tasks[image].utility = {{1}};
+    network.tasks[testing::task_named(network, "dig")].contingency = {.requests = {image}};
+    return UtilityEngine({"utility_htn", "lander", "", {}}, std::move(network));
+  };
+  const auto images = [](const FlexiblePlan& plan) {
+    return std::ranges::count(plan.tokens, "image", &temporal::Token::timeline);
+  };
+  UtilityEngine died = make();
+  FlexiblePlan plan;
+  ASSERT_EQ(temporal::apply(*died.step(beginning()).delta, plan), "");
+  const auto dig = std::ranges::find(plan.activities, "dig", &temporal::PlanActivity::name);
+  ASSERT_NE(dig, plan.activities.end());
+  StepInputs failed;
+  failed.now = Time(20s);
+  failed.receipt = engine::Receipt{plan.version, 0, "", "", true};
+  failed.steps.push_back(
+      {plan.version, dig->id, {temporal::ActivityState::failed, Time(5s), Time(15s)}, "too hard", 1});
+  failed.observations = {{"battery", 1.0, Time(15s)}};
+  ASSERT_EQ(temporal::apply(*died.step(failed).delta, plan), "");
+  ASSERT_EQ(images(plan), 0);
+
+  UtilityEngine anew = make();
+  StepInputs inputs = beginning();
+  inputs.now = Time(30s);
+  inputs.executed = plan;
+  inputs.receipt->version = inputs.last_version = plan.version;
+  inputs.observations = {{"battery", 900.0, Time(29s)}};
+  if (const StepOutput out = anew.step(inputs); out.delta) {
+    EXPECT_EQ(temporal::apply(*out.delta, plan), "");
+  }
+  EXPECT_EQ(images(plan), 1);
+}
+
 }  // namespace
 }  // namespace roci::planner::utility_htn::adapter
