@@ -36,7 +36,8 @@ std::optional<std::uint32_t> index_of(const Items& items, const std::string& nam
   return static_cast<std::uint32_t>(found - items.begin());
 }
 
-// Takes over what was found out: what is done, what contingencies ask for, values that are no priors, and timelines as they are now.
+// Takes over what was found out: what is done, what contingencies ask for, values that are no priors, and timelines as
+// they are now.
 cycle::Past past_for(const Network& next, const Network& before, const cycle::Cycle& cycle, Time now) {
   cycle::Past out{.values = model::priors(next)};
   const auto take_over = [&](const std::set<model::TaskIndex>& tasks, std::set<model::TaskIndex>& taken) {
