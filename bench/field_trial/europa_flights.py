@@ -177,10 +177,10 @@ def broken_map(flight: Flight, observed: dict[str, list[tuple[float, str]]]) -> 
             told = [(at, value) for at, value in values if value != "unknown"]
             if told:
                 known[name.rsplit(".", 1)[1]] = told[0]
-    analyzed = Counter(deed["object"].split("_")[0] for deed in flight.did("analyze"))
+    analyses = {deed["object"] for deed in flight.did("analyze")}  # one that found no room for its data is made again
+    analyzed = Counter(sample.split("_")[0] for sample in analyses)
     out += [f"{count} samples of site {site} were analyzed" for site, count in analyzed.items() if count > MOST_SAMPLES]
     troubled = {site for _, activity, _ in flight.failures for site in SITES if f"_site_{site}" in activity or f"_sample_{site}" in activity}
-    analyses = {deed["object"] for deed in flight.did("analyze")}
     for deed in flight.did("collect"):
         site, target = deed["object"].split(" ")
         at = deed["time_us"] / 1e6

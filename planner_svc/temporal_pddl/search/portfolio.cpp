@@ -9,6 +9,7 @@
 
 #include "planner_svc/temporal_pddl/search/best_first_search.hpp"
 #include "planner_svc/temporal_pddl/search/best_first_width_search.hpp"
+#include "planner_svc/temporal_pddl/search/goal_alternatives.hpp"
 #include "planner_svc/temporal_pddl/search/goal_serialization.hpp"
 
 namespace roci::planner::temporal_pddl::search {
@@ -29,6 +30,7 @@ constexpr std::size_t kOpening = 50;  // before the first turn; easy tasks need 
 constexpr std::size_t kFirstShare = 4;
 constexpr std::size_t kLookaheadShare = 2;
 constexpr std::size_t kWidthShare = 3;
+constexpr std::size_t kAlternativesShare = 3;
 constexpr std::size_t kStepByStepShare = 1;
 constexpr std::size_t kSerializationShare = 1;
 
@@ -51,6 +53,7 @@ enum class MemberName {
   lookahead_compressed,
   lookahead,
   best_first_width,
+  goal_alternatives,
   step_by_step_compressed,
   step_by_step,
   goal_serialization,
@@ -64,6 +67,8 @@ std::string_view phase_of(MemberName name) {
       return "searching: lookahead";
     case MemberName::best_first_width:
       return "searching: best-first width";
+    case MemberName::goal_alternatives:
+      return "searching: one alternative of the goal";
     case MemberName::step_by_step_compressed:
       return "searching: step by step, whole actions";
     case MemberName::step_by_step:
@@ -101,6 +106,8 @@ class Portfolio {
     if (options.lookahead) add_best_first(true, MemberName::lookahead_compressed, MemberName::lookahead);
     if (options.best_first_width && options.dominance)
       members_.push_back({MemberName::best_first_width, kWidthShare});
+    if (options.lookahead && GoalAlternatives::has_some(context.task))
+      members_.push_back({MemberName::goal_alternatives, kAlternativesShare});
     add_best_first(false, MemberName::step_by_step_compressed, MemberName::step_by_step);
     if (options.goal_serialization) members_.push_back({MemberName::goal_serialization, kSerializationShare});
   }
@@ -141,6 +148,8 @@ class Portfolio {
         return best_first(ActionCompression::where_safe, true);
       case MemberName::best_first_width:
         return std::make_unique<BestFirstWidthSearch>(context_, guide_, strongest_);
+      case MemberName::goal_alternatives:
+        return std::make_unique<GoalAlternatives>(context_, guide_, strongest_);
       case MemberName::step_by_step_compressed:
         return best_first(strongest_, false);
       case MemberName::step_by_step:

@@ -19,6 +19,7 @@ task::ActionCompression strongest_compression(const task::Task& task, const call
 ///  - best-first search with compressed actions, that follows relaxed plans,
 ///  - the same with starts and ends as steps, which is complete,
 ///  - best-first width search,
+///  - if the goal has alternatives, best-first search for one of them at a time,
 ///  - best-first search step by step, with compressed actions,
 ///  - the same with starts and ends as steps, which is complete,
 ///  - goal serialization.
