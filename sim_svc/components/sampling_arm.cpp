@@ -102,6 +102,23 @@ std::vector<Phase> SamplingArm::phases_of(const Run& run, double noise) const {
   return out;
 }
 
+bool SamplingArm::add_warming(const Run& run, double noise, const world::Body& body, Phase& work) const {
+  const auto found = settings_.warms.find(run.command);
+  if (found == settings_.warms.end() || !body.thermal) return true;
+  const world::ColdPart& part = found->second;
+  const auto usual = world::warming(part, part.usual_k);
+  const auto here = world::warming(part, body.thermal->surroundings_k(), body.thermal->loss_factor());
+  if (!usual || !here) return false;
+  const double factor = settings_.duration_factor * noise;
+  const double held_s = std::max(0.0, work.work_s - factor * usual->seconds);
+  const double more_s = std::max(-work.work_s, factor * (here->seconds - usual->seconds));
+  const double warming_w = run.power_factor * (settings_.arm_w + part.heater_w);
+  const double holding_j = run.power_factor * (here->holding_w - usual->holding_w) * held_s;
+  work.work_s += more_s;
+  if (work.work_s > 0) work.power_w += (more_s * (warming_w - work.power_w) + holding_j) / work.work_s;
+  return true;
+}
+
 Ending SamplingArm::begin(const world::Task& task, Time now, Surroundings& around) {
   if (Ending refused = refusal_of(task)) return refused;
   results_.clear();
@@ -127,7 +144,12 @@ Ending SamplingArm::begin(const world::Task& task, Time now, Surroundings& aroun
     }
   }
   run_ = run;
-  if (Ending cold = phases_.begin(phases_of(run, duration_noise), now, around.body)) {
+  std::vector<Phase> phases = phases_of(run, duration_noise);
+  Ending cold;
+  if (!add_warming(run, duration_noise, around.body, phases.back()))
+    cold = Failure{"too-cold", "what '" + task.command + "' warms would never be warm enough to work"};
+  if (!cold) cold = phases_.begin(std::move(phases), now, around.body);
+  if (cold) {
     run_.reset();
     return cold;
   }

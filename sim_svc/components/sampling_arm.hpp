@@ -11,6 +11,7 @@
 #include "sim_svc/components/excavation.hpp"
 #include "sim_svc/components/phased_component.hpp"
 #include "sim_svc/world/capabilities.hpp"
+#include "sim_svc/world/cold_part.hpp"
 #include "sim_svc/world/random_stream.hpp"
 
 namespace roci::sim::components {
@@ -46,6 +47,8 @@ struct SamplingArmSettings {
   double drill_w = 110;        ///< beside the arm, while it drills
   double power_noise = 0.05;
   double waste_share = 0.3;  ///< of what it draws, left as heat in its zone
+  /// What each command warms beside the zone, by command; that is part of its duration and its power.
+  std::map<std::string, world::ColdPart> warms{};
   double joint_speed_rad_s = 0.01;
   ArmJoints rest{0, -1.5, 2.6, 0.5, 0};
   ArmJoints inlet{1.6, -1.0, 1.9, 0.7, 0};
@@ -120,6 +123,9 @@ class SamplingArm final : public PhasedComponent, public world::SampleCarrier {
   bool excavated(const Trench& trench) const { return trench.depth_m >= settings_.depth_m; }
   std::vector<Phase> phases_of(const Run&, double duration_noise) const;
   Phase work(double seconds, double power_w) const;
+  // Makes the work as much longer and dearer as what it warms takes more than usually. Returns false where that cannot
+  // be warmed.
+  bool add_warming(const Run&, double duration_noise, const world::Body&, Phase& work) const;
   double cutting_w() const;
   // Cuts the trench from where it is, until it is done, jams, or gives way no more.
   std::vector<Phase> cutting();

@@ -1,6 +1,8 @@
 #include "sim_svc/components/sampling_arm_settings.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <map>
 
 #include "sim_svc/setup/roster_file.hpp"
 
@@ -21,6 +23,37 @@ ArmJoints read_joints(const Entry& entry) {
     entry.fail("expected " + std::to_string(out.size()) + " joints such as [0, 0.2, 1, -1.2, 0], in rad");
   for (std::size_t i = 0; i < out.size(); ++i) out[i] = items[i].number();
   return out;
+}
+
+world::ColdPart read_cold_part(const Entry& entry, double command_s) {
+  entry.allow_only({"capacity_j_k", "loss_w_k", "heater_w", "work_k", "usual_k"});
+  world::ColdPart out;
+  out.capacity_j_k = setup::number(entry, "capacity_j_k", out.capacity_j_k, 1);
+  out.loss_w_k = setup::number(entry, "loss_w_k", out.loss_w_k, 1e-6);
+  out.heater_w = setup::number(entry, "heater_w", out.heater_w, kLeast);
+  out.work_k = setup::number(entry, "work_k", out.work_k);
+  out.usual_k = setup::number(entry, "usual_k", out.usual_k);
+  const auto usual = world::warming(out, out.usual_k);
+  if (!usual) entry.fail("this heater never brings it to work_k; raise heater_w, or lower loss_w_k");
+  if (usual->seconds > command_s)
+    entry.fail("warming takes " + std::to_string(std::lround(usual->seconds)) + " s, the whole command " +
+               std::to_string(std::lround(command_s)) + " s; raise heater_w, or the command's duration");
+  return out;
+}
+
+// Says of each command that works for a time what it warms.
+void read_warms(const Entry& entry, SamplingArmSettings& out) {
+  const std::map<std::string, double> lasting{{"prepare", out.prepare_s},
+                                              {"collect", out.collect_s},
+                                              {"transport", out.transport_s},
+                                              {"discard", out.discard_s}};
+  entry.each_field([&](const std::string& command, const Entry& part) {
+    const auto known = lasting.find(command);
+    if (known == lasting.end())
+      part.fail("'" + command +
+                "' warms nothing beside the zone; known: prepare, collect, transport, discard");
+    out.warms.insert_or_assign(command, read_cold_part(part, known->second));
+  });
 }
 
 // Writes what the entry says of a site over what is said of it already; `usual` holds for the ice of all sites.
@@ -85,6 +118,7 @@ SamplingArmSettings read_sampling_arm_settings(Settings& in) {
   out.power_noise = in.number("power_noise", out.power_noise);
   out.waste_share = in.share("waste_share", out.waste_share);
   out.joint_speed_rad_s = in.number("joint_speed_rad_s", out.joint_speed_rad_s, 1e-6);
+  if (const auto warms = in.find("warms")) read_warms(*warms, out);
   if (const auto joints = in.find("rest")) out.rest = read_joints(*joints);
   if (const auto joints = in.find("inlet")) out.inlet = read_joints(*joints);
   if (const auto joints = in.find("dump")) out.dump = read_joints(*joints);

@@ -44,6 +44,8 @@ class Thermal {
 
   bool has(std::string_view zone) const;
   const std::vector<ZoneParameters>& zones() const { return parameters_.zones; }
+  double surroundings_k() const { return parameters_.surroundings_k; }
+  double loss_factor() const { return parameters_.loss_factor; }
 
   /// Keeps the zone warm for work from now on; `who` is any object that stands for whoever does.
   void hold(std::string_view zone, const void* who, temporal::Time now);

@@ -171,6 +171,13 @@ TEST_F(SamplingFiles, RefuseAnArmThatCannotBe) {
   EXPECT_THAT(error_of_arm("cutter_efficiency: 2, sites: {\"0\": {}}"), HasSubstr("is a share, at most 1"));
   EXPECT_THAT(error_of_arm("depth_m: 500, sites: {\"0\": {}}"), HasSubstr("at most 100 m"));
   EXPECT_THAT(error_of_arm("layer_m: 0.000001, sites: {\"0\": {}}"), HasSubstr("'layer_m' must be at least"));
+  EXPECT_THAT(error_of_arm("warms: {excavate: {}}, sites: {\"0\": {}}"),
+              HasSubstr("known: prepare, collect"));
+  EXPECT_THAT(error_of_arm("warms: {collect: {power_w: 1}}, sites: {\"0\": {}}"), HasSubstr("power_w"));
+  EXPECT_THAT(error_of_arm("warms: {collect: {heater_w: 30}}, sites: {\"0\": {}}"),
+              HasSubstr("never brings it to work_k"));
+  EXPECT_THAT(error_of_arm("collect_s: 60, warms: {collect: {}}, sites: {\"0\": {}}"),
+              HasSubstr("warming takes 2554 s, the whole command 60 s"));
   EXPECT_THAT(error_of_world("{sites: {\"3\": {}}}"),
               AllOf(HasSubstr("s.yaml:2:"), HasSubstr("no site '3'; known: 0, 1")));
 }
