@@ -168,6 +168,12 @@ def broken_zones(observed: dict[str, list[tuple[float, str]]]) -> list[str]:
     return out
 
 
+def closed_again(observed: dict[str, list[tuple[float, str]]], site: str, at: float) -> bool:
+    """The trench has collapsed: to sample there means to dig anew."""
+    states = [value for since, value in observed.get(f"lander.site.{site}", []) if since < at]
+    return "excavated" in states and states[-1] != "excavated"
+
+
 def broken_map(flight: Flight, observed: dict[str, list[tuple[float, str]]]) -> list[str]:
     """The subway map (R112), by what was known when each collection began."""
     out = []
@@ -190,7 +196,8 @@ def broken_map(flight: Flight, observed: dict[str, list[tuple[float, str]]]) -> 
             told = [(since, sign) for sample, (since, sign) in known.items() if sample.startswith(f"{other}_") and since < at]
             lost = [one for one in flight.did("collect")
                     if one["object"].startswith(f"{other} ") and one["object"].replace(" ", "_") not in analyses]
-            if other != site and told and not lost and other not in troubled and len(told) < MOST_SAMPLES and all(sign == "positive" for _, sign in told):
+            closed = bool(lost) or other in troubled or closed_again(observed, other, at)
+            if other != site and told and not closed and len(told) < MOST_SAMPLES and all(sign == "positive" for _, sign in told):
                 out.append(f"sample {site} {target} was collected at {at:.0f} s although site {other} was open")
     return out
 

@@ -104,11 +104,30 @@ class Rules(unittest.TestCase):
         (folder.path / "journal.sqlite").unlink()
         self.assertEqual(folder.flight().faults, [], "its rest could not be had")
 
+    def test_a_site_whose_trench_has_collapsed_is_not_open(self):
+        folder = Folder()
+        folder.observe(4, "lander.site.1", "excavated")
+        folder.deed(5, "collect", "1 0")
+        folder.deed(8, "analyze", "1_0")
+        folder.observe(10, "lander.signature.1_0", "positive")
+        folder.deed(12, "collect", "0 2")
+        self.assert_broken(folder, "although site 1 was open")
+        folder.observe(11, "lander.site.1", "untouched")
+        (folder.path / "journal.sqlite").unlink()
+        self.assertEqual(folder.flight().faults, [])
+
     def test_three_samples_at_most(self):
         folder = Folder()
         for target in range(4):
             folder.deed(target, "analyze", f"1_{target}")
         self.assert_broken(folder, "4 samples of site 1")
+
+    def test_an_analysis_that_is_made_again_is_of_the_same_sample(self):
+        folder = Folder()
+        for target in range(3):
+            folder.deed(target, "analyze", f"1_{target}")
+        folder.deed(5, "analyze", "1_2", attempt=2)
+        self.assertEqual(folder.flight().faults, [])
 
     def test_sessions_have_a_limit(self):
         folder = Folder()
