@@ -168,12 +168,39 @@ bool PartialPlan::is_mending(Index activity) const {
 
 bool PartialPlan::take(const Step& step) {
   obstacle_ = {};
-  if (apply(step)) return true;
+  const std::size_t before = changes_.size();
+  if (apply(step) && leaves_time(before)) return true;
   if (obstacle_.kind != Obstacle::Kind::none) return false;
   const bool placing = step.kind == StepKind::attach || step.kind == StepKind::append ||
                        step.kind == StepKind::pass || step.kind == StepKind::decompose;
   return refuse({Obstacle::Kind::time, placing ? goal_of(step.subject) : kNone,
                  placing ? activities_[step.subject].state : kNone, kNone, kNone, kNone});
+}
+
+// Whether what is still to come about on the timelines that have grown since then may begin behind their last values.
+bool PartialPlan::leaves_time(std::size_t changes) {
+  for (std::size_t i = changes; i < changes_.size(); ++i) {
+    if (changes_[i].field != Field::current) continue;
+    const Token& last = tokens_[current_[changes_[i].index]];
+    for (const Index index : open_) {
+      const Activity& one = activities_[index];
+      if (one.nested || component(index) != changes_[i].index) continue;
+      const bool rests = ground_->at(one.state).kind == StateKind::resting;
+      // It may be met by a value before, if it waited for others or is a part of what did (Successors::attach_back).
+      if (rests && (one.parent != kNone || one.before_begin < one.before_end)) continue;
+      if (!may_begin_after(index, rests && last.state == one.state ? last.start : last.end))
+        return refuse({Obstacle::Kind::time, goal_of(index), one.state, kNone, kNone, kNone});
+    }
+  }
+  return true;
+}
+
+// The constraint is not kept: those of the value that the activity will have say it, too.
+bool PartialPlan::may_begin_after(Index activity, TimePoint point) {
+  const Network::Mark mark = network_.mark();
+  const bool out = constrain(point, activities_[activity].start, Duration{0});
+  network_.take_back(mark);
+  return out;
 }
 
 bool PartialPlan::apply(const Step& step) {

@@ -200,6 +200,8 @@ class PartialPlan {
   void place(Index activity);
   bool refuse(Obstacle obstacle);
   bool apply(const Step& step);
+  bool leaves_time(std::size_t changes);
+  bool may_begin_after(Index activity, TimePoint point);
 
   // initial_plan.cpp
   void add_predicted(Index component);
