@@ -1,3 +1,4 @@
+// Steps that give a complex state one of its behaviours: its conditions, its parts and the time between them.
 #include <algorithm>
 #include <cmath>
 
@@ -7,6 +8,58 @@ namespace roci::planner::timeline_htn::search {
 
 using model::Behaviour, model::Pattern, model::StateKind, model::Term;
 using temporal::no_bound;
+
+// Lets the timeline go on by itself, through states without a command, until the condition holds.
+bool PartialPlan::follow(Index component, const Pattern& pattern, const std::vector<Index>& objects,
+                         Index activity) {
+  std::vector<StateId> path;
+  StateId state = current_state(component);
+  if (ground_->at(state).kind != StateKind::simple) return false;
+  while (!ground_->fits(state, pattern, objects)) {
+    if (path.size() == kStepsByItself) return false;
+    StateId chosen = kNone;
+    for (const StateId after : ground_->next(state)) {
+      const bool by_itself =
+          !ground_->definition(after).command && ground_->at(after).kind != StateKind::complex;
+      if (by_itself && (chosen == kNone || ground_->fits(after, pattern, objects))) {
+        chosen = after;
+        if (ground_->fits(after, pattern, objects)) break;
+      }
+    }
+    if (chosen == kNone) return false;
+    path.push_back(state = chosen);
+  }
+  return std::ranges::all_of(
+      path, [&](StateId one) { return step_between(one, activity, activities_[activity].parent, false); });
+}
+
+bool PartialPlan::conditions_hold(Index activity, const Behaviour& behaviour,
+                                  const std::vector<Index>& objects) {
+  for (Index i = 0; i < behaviour.conditions.size(); ++i) {
+    const model::Precondition& condition = behaviour.conditions[i];
+    const Index component = condition.state.component;
+    if (ground_->is_predicted(component)) {
+      push({UrgentKind::condition, activity, i, kNone, 0, kNone});
+      continue;
+    }
+    const Index own = activities_[activity].token;
+    const bool before_itself = own != kNone && ground_->at(tokens_[own].state).state.component == component;
+    const Index looked_at = before_itself ? tokens_[own].before : current_[component];
+    bool holds = ground_->fits(tokens_[looked_at].state, condition.state, objects) != condition.negated;
+    if (!holds && !condition.negated && !before_itself)
+      holds = follow(component, condition.state, objects, activity);
+    if (!holds)
+      return refuse({Obstacle::Kind::condition, goal_of(activity), activities_[activity].state,
+                     static_cast<Index>(&behaviour - ground_->model().behaviours.data()), i,
+                     tokens_[looked_at].state});
+    if (before_itself) continue;
+    const Token& token = tokens_[current_[component]];
+    if (!constrain(token.start, activities_[activity].start, Duration{0}) ||
+        !constrain(activities_[activity].start, token.end, Duration{0}))
+      return false;
+  }
+  return true;
+}
 
 bool PartialPlan::decompose(Index activity, Index behaviour_index, Index binding) {
   const Behaviour& behaviour = ground_->model().behaviours[behaviour_index];

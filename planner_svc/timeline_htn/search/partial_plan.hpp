@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "planner_svc/timeline_htn/search/bindings.hpp"
 #include "planner_svc/timeline_htn/search/ground.hpp"
 #include "planner_svc/timeline_htn/search/network.hpp"
 
@@ -101,23 +102,6 @@ struct Obstacle {
   StateId at = kNone;  ///< where the timeline stood
 };
 
-/// Holds interned bindings of variables to objects.
-class Bindings {
- public:
-  Index number(const std::vector<Index>& objects);
-  const std::vector<Index>& at(Index number) const { return all_[number]; }
-  std::size_t bytes() const { return bytes_; }
-
- private:
-  std::vector<std::vector<Index>> all_;
-  std::map<std::vector<Index>, Index> numbers_;
-  std::size_t bytes_ = 0;
-};
-
-/// Returns the objects that a variable of a behaviour may stand for where the others stand for these.
-std::vector<Index> admissible(const Ground& ground, const model::Behaviour& behaviour, Index variable,
-                              std::vector<Index> objects);
-
 /// Is changed by steps and taken back step by step: what a step costs is what it changes.
 class PartialPlan {
  public:
@@ -204,39 +188,50 @@ class PartialPlan {
     Index before;
   };
 
+  // partial_plan.cpp: changes that can be taken back
   void set(Field field, Index index, Index value);
   Index& slot(Field field, Index index);
   bool constrain(TimePoint from, TimePoint to, Duration lower, Duration upper = temporal::no_bound);
   Index add_activity(StateId state, Index parent, const model::Bounds* bounds = nullptr);
-  void widen(model::Bounds& bounds, const model::Behaviour& behaviour, Index variable,
-             const model::Pattern& pattern, const std::vector<Index>& objects);
-  Index append(StateId state, Index activity, Index cause);
-  bool wait_for_mending(Index activity, Index token);
   void push(Urgent item);
   void pop();
   void finish(Index activity);
   void open_up(Index activity);
   void place(Index activity);
+  bool refuse(Obstacle obstacle);
+  bool apply(const Step& step);
+  bool leaves_time(std::size_t changes);
+  bool may_begin_after(Index activity, TimePoint point);
+
+  // initial_plan.cpp
+  void add_predicted(Index component);
+  void add_mending();
+
+  // timeline_steps.cpp
+  Index append(StateId state, Index activity, Index cause);
+  bool wait_for_mending(Index activity, Index token);
   bool step_between(StateId state, Index cause, Index parent, bool complex_permitted);
   bool attach(Index activity, Index token);
   bool go_on(Index activity, StateId state);
   bool pass(Index activity, StateId state);
+
+  // need_steps.cpp
+  bool meet_need(Index token, Index need, Index other);
+  bool path_to_need(StateId state, bool passing);
+  bool take_window(const Step& step);
+
+  // decomposition_steps.cpp
   bool decompose(Index activity, Index behaviour, Index binding);
   bool conditions_hold(Index activity, const model::Behaviour& behaviour, const std::vector<Index>& objects);
   bool follow(Index component, const model::Pattern& pattern, const std::vector<Index>& objects,
               Index activity);
   bool add_parts(Index activity, const model::Behaviour& behaviour, const std::vector<Index>& objects);
+  void widen(model::Bounds& bounds, const model::Behaviour& behaviour, Index variable,
+             const model::Pattern& pattern, const std::vector<Index>& objects);
   bool add_choices(Index activity, const model::Behaviour& behaviour, const model::Decision& decision,
                    const std::vector<Index>& objects, Index first);
   bool add_part_constraints(Index activity, const model::Behaviour& behaviour,
                             const std::vector<Index>& objects, Index first);
-  bool meet_need(Index token, Index need, Index other);
-  bool path_to_need(StateId state, bool passing);
-  bool refuse(Obstacle obstacle);
-  bool apply(const Step& step);
-  bool take_window(const Step& step);
-  void add_predicted(Index component);
-  void add_mending();
 
   Ground* ground_;
   Bindings* bindings_;

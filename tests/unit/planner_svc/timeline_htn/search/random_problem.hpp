@@ -28,7 +28,8 @@ class RandomProblem {
     out.with_late_goals_ = true;
     return out;
   }
-  /// Begins in an error, which one of one or two behaviours mends before the goals come; behaviours have conditions.
+  /// Begins in an error, which one of one or two behaviours mends before the goals come; behaviours have conditions,
+  /// and states may take no time.
   static RandomProblem with_error(std::uint64_t seed) {
     RandomProblem out(seed, true);
     out.with_error_ = true;
@@ -65,7 +66,7 @@ class RandomProblem {
     const bool begins_in_error = with_error_ && name == "p";
     if (begins_in_error) out += "      e: {kind: error}\n";
     for (const char* simple : {"a", "b"}) {
-      const int shortest = number(1, 4);
+      const int shortest = number(with_error_ ? 0 : 1, 4);
       out += "      " + std::string(simple) + ": {kind: simple, duration_s: [" + std::to_string(shortest) +
              ", " + std::to_string(shortest + number(0, 4)) + "]";
       std::string needs;

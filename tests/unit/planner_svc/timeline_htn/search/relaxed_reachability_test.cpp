@@ -45,10 +45,12 @@ TEST(RelaxedReachability, IsNeverWrongWhereBruteForceOrTheSearchFindsAPlan) {
   EXPECT_GT(solvable, 200);
 }
 
-// Where an error is mended first, the goals begin from where that leaves the timelines.
+// Where an error is mended first, the goals begin from where that leaves the timelines. So many seeds hold one at least
+// in which a plan depends on each of: a timeline that stays where it began, parts that no order makes the last one, a
+// state to rest in that is left at once, and one that ended just as the mending did.
 TEST(RelaxedReachability, IsNeverWrongBehindWhatMendsAnError) {
   int proved = 0, solvable = 0;
-  for (std::uint64_t seed = 0; seed < 900; ++seed) {
+  for (std::uint64_t seed = 0; seed < 1800; ++seed) {
     const std::string text = RandomProblem::with_error(seed).text();
     mission::Findings findings;
     const auto model = reading::parse_model({{"random", text}}, findings);
@@ -56,7 +58,7 @@ TEST(RelaxedReachability, IsNeverWrongBehindWhatMendsAnError) {
     const auto proof = never(*model);
     Search search(*model, {});
     search.prove_by_search_alone();
-    const bool found = search.run(20'000, 0, [] { return false; }) == Outcome::solved;
+    const bool found = search.run(5'000, 0, [] { return false; }) == Outcome::solved;
     ASSERT_FALSE(proof && found) << "seed " << seed << "\n" << text << proof->reason;
     proved += proof ? 1 : 0;
     solvable += found ? 1 : 0;
