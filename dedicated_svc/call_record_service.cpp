@@ -92,10 +92,10 @@ RunRecord run_in(const json& in) {
   for (const json& one : in.at("taken")) out.taken.push_back(taken_in(one));
   if (const auto why = in.find("broken_off"); why != in.end()) {
     const bool failed = why->at("stage").get<int>() == static_cast<int>(owner::Stage::failed);
-    out.broken_off = owner::Word{failed ? owner::Stage::failed : owner::Stage::cancelled,
-                                 why->at("code").get<std::string>(),
-                                 why->at("reason").get<std::string>(),
-                                 {}};
+    out.broken_off = owner::CommandStatus{failed ? owner::Stage::failed : owner::Stage::cancelled,
+                                          why->at("code").get<std::string>(),
+                                          why->at("reason").get<std::string>(),
+                                          {}};
   }
   return out;
 }
@@ -149,7 +149,7 @@ void CallRecord::take(method_run::Taken taken, Time now) {
   write();
 }
 
-void CallRecord::break_off(const owner::Word& why) {
+void CallRecord::break_off(const owner::CommandStatus& why) {
   if (!run_) return;
   run_->broken_off = why;
   write();

@@ -17,9 +17,9 @@ namespace roci::dedicated {
 struct RunRecord {
   services::owner::Request request;  ///< but for who sent it when
   temporal::Time begun{};
-  temporal::Time call_begun{};                        ///< of the call that is under way
-  std::vector<method_run::Taken> taken{};             ///< in their order
-  std::optional<services::owner::Word> broken_off{};  ///< why it is to end early
+  temporal::Time call_begun{};                                 ///< of the call that is under way
+  std::vector<method_run::Taken> taken{};                      ///< in their order
+  std::optional<services::owner::CommandStatus> broken_off{};  ///< why it is to end early
 };
 
 /// Is kept in a small file, whole or not at all, before what it says is done. Where the disk does not take a change,
@@ -46,7 +46,7 @@ class CallRecord {
   /// The call is over, and the next one begins now, if there is one.
   /// Of a run that takes more than kTaken nothing is known any more.
   void take(method_run::Taken taken, temporal::Time now);
-  void break_off(const services::owner::Word& why);
+  void break_off(const services::owner::CommandStatus& why);
   /// What is open stays so.
   void end_run(const temporal::Value& state);
   /// What was open is not.

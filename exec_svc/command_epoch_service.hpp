@@ -6,7 +6,7 @@
 
 #include "exec_svc/output_publisher_service.hpp"
 #include "exec_svc/strangers.hpp"
-#include "services/topics.hpp"
+#include "services/topics/topics.hpp"
 
 namespace roci::exec {
 

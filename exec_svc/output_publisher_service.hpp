@@ -14,7 +14,7 @@
 #include "exec_svc/reactor/reactor.hpp"
 #include "services/node.hpp"
 #include "services/publisher.hpp"
-#include "services/topics.hpp"
+#include "services/topics/topics.hpp"
 
 namespace roci::exec {
 

@@ -66,7 +66,7 @@ class MapExchange final : private services::owner::Driver {
               const std::vector<std::pair<std::string, std::string>>& properties);
 
   void carry_out(const services::owner::Request&) override;
-  void break_off(const services::owner::CommandKey&, const services::owner::Word& why) override;
+  void break_off(const services::owner::CommandKey&, const services::owner::CommandStatus& why) override;
 
   services::Node& node_;
   const MapSettings settings_;

@@ -1,7 +1,7 @@
 // The downlink schedule and the mission outlook in their wire form.
 #pragma once
 
-#include "planner_svc/engine/outlook.hpp"
+#include "planner_svc/engine/mission_outlook.hpp"
 #include "roci_idl/outlook.h"
 
 namespace roci::planner {

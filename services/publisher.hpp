@@ -9,7 +9,7 @@
 
 #include "services/node.hpp"
 #include "services/node/typed_endpoints.hpp"
-#include "services/topics.hpp"
+#include "services/topics/topics.hpp"
 
 namespace roci::services {
 
@@ -34,12 +34,12 @@ class Publisher {
 };
 
 template <class T>
-Publisher<T> advertise(Node& node, const Topic<T>& topic) {
+Publisher<T> advertise(Node& node, const topics::Topic<T>& topic) {
   return Publisher<T>(node::TypedEndpoints<T>::advertise(node.impl(), topic));
 }
 
 template <class T>
-void subscribe(Node& node, const Topic<T>& topic,
+void subscribe(Node& node, const topics::Topic<T>& topic,
                std::type_identity_t<std::function<void(const T&)>> on_value) {
   node::TypedEndpoints<T>::subscribe(node.impl(), topic, std::move(on_value));
 }

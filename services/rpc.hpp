@@ -20,7 +20,7 @@
 
 #include "services/node.hpp"
 #include "services/rpc/call_status.hpp"
-#include "services/topics.hpp"
+#include "services/topics/topics.hpp"
 
 namespace roci::services {
 

@@ -26,16 +26,16 @@ class RunEnd {
   void check();
 
  private:
-  enum class Standing : std::uint8_t { without_goals, open, over, made_safe };
+  enum class MissionState : std::uint8_t { without_goals, open, over, made_safe };
 
-  static Standing standing_of(const v1::MissionStatus&);
+  static MissionState mission_state_of(const v1::MissionStatus&);
   bool over() const;
   bool may_be_heard_again();
 
   services::Node& node_;
   std::function<bool()> nothing_to_come_;
   std::function<void()> end_;
-  std::map<std::string, Standing> executives_;
+  std::map<std::string, MissionState> executives_;
   std::optional<services::Node::TimerId> farewell_;
   std::optional<services::clock::WallTime> awaited_until_;  ///< a robot that was made safe
 };

@@ -22,7 +22,7 @@ world::TaskKey task_key(const services::owner::CommandKey&);
 services::owner::CommandKey command_key(const world::TaskKey&);
 world::Order order_of(const services::owner::Request&);
 /// Returns the owner's word on a task; a report of a repair is none (CommandServer::repair).
-services::owner::Word word_of(const world::TaskReport&);
+services::owner::CommandStatus status_of(const world::TaskReport&);
 world::Way way_of(const v1::PathReply&);
 world::DownlinkSchedule schedule_of(const v1::DownlinkSchedule&);
 world::Trajectory trajectory_of(const v1::ArmMotionReply&);

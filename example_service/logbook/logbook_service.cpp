@@ -4,7 +4,7 @@
 #include <string>
 
 #include "services/publisher.hpp"
-#include "services/topics.hpp"
+#include "services/topics/topics.hpp"
 
 namespace borehole {
 namespace {

@@ -106,7 +106,7 @@ void JournaledReactor::begin_anew() {
   reactor_ = std::make_unique<Reactor>(*mission_);
   reactor_->restore(journal_->goals(), static_cast<std::uint32_t>(journal_->number("plan_version", 0)));
   const std::int64_t first = static_cast<std::int64_t>(mission_->executive.autonomy);
-  reactor_->restore_authority(static_cast<orders::AutonomyLevel>(journal_->number("autonomy", first)),
+  reactor_->restore_authority(static_cast<mission::AutonomyLevel>(journal_->number("autonomy", first)),
                               journal_->number("held", 0) != 0);
   restore_concluded();
   journal_->set_number("format", journal::kInputFormat);

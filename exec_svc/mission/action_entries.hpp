@@ -26,7 +26,7 @@ RecoveryStrategy read_strategy(const roci::mission::Entry& entry);
 executive::StartPolicy read_start(const roci::mission::Entry& entry);
 Replanning read_replanning(const roci::mission::Entry& entry);
 
-orders::AutonomyLevel read_autonomy(const roci::mission::Entry& entry);
+AutonomyLevel read_autonomy(const roci::mission::Entry& entry);
 
 /// A whole number from `least` to 1000000, or the fallback where the key is missing.
 std::uint32_t count_or(const roci::mission::Entry& parent, const char* key, std::uint32_t fallback,

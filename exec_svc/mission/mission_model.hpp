@@ -16,8 +16,8 @@
 #include "core/temporal/flexible_plan.hpp"
 #include "exec_svc/executive/contingency.hpp"
 #include "exec_svc/executive/executive.hpp"
+#include "exec_svc/mission/autonomy_level.hpp"
 #include "exec_svc/mission/executive_role.hpp"
-#include "exec_svc/orders/autonomy_level.hpp"
 
 namespace roci::pddl {
 struct Domain;
@@ -167,8 +167,8 @@ struct ReactorSettings {
   RecoveryStrategy recovery = RecoveryStrategy::cascade;
   executive::StartPolicy start = executive::StartPolicy::earliest;
   Replanning replanning = Replanning::stop_and_replan;
-  orders::AutonomyLevel autonomy = orders::AutonomyLevel::e4;  ///< with which the mission begins
-  temporal::Duration standby_term = temporal::seconds(2);      ///< wall time; see standby/lease.hpp
+  AutonomyLevel autonomy = AutonomyLevel::e4;              ///< with which the mission begins
+  temporal::Duration standby_term = temporal::seconds(2);  ///< wall time; see standby/lease.hpp
   /// Not of the mission, but of the scenario's links (executive::ExecutiveSettings).
   std::map<std::string, temporal::Duration> round_trips{};
 

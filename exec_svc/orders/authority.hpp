@@ -5,16 +5,17 @@
 #include <string>
 
 #include "exec_svc/executive/permissions.hpp"
+#include "exec_svc/mission/autonomy_level.hpp"
 #include "exec_svc/orders/order.hpp"
 
 namespace roci::exec::orders {
 
 class Authority {
  public:
-  explicit Authority(AutonomyLevel level) : level_(level) {}
+  explicit Authority(mission::AutonomyLevel level) : level_(level) {}
 
-  AutonomyLevel level() const { return level_; }
-  void set_level(AutonomyLevel level) { level_ = level; }
+  mission::AutonomyLevel level() const { return level_; }
+  void set_level(mission::AutonomyLevel level) { level_ = level; }
 
   /// Nothing new starts, and nothing is replanned.
   bool held() const { return held_; }
@@ -25,7 +26,7 @@ class Authority {
   void approve(const std::string& activity) { approved_.insert(activity); }
 
   /// Whether a plan may take the place of one that runs or broke.
-  bool may_replan() const { return level_ == AutonomyLevel::e4 && !held_; }
+  bool may_replan() const { return level_ == mission::AutonomyLevel::e4 && !held_; }
   /// What this comes to for the activities of a plan.
   executive::Permissions permissions() const;
 
@@ -35,7 +36,7 @@ class Authority {
   }
 
  private:
-  AutonomyLevel level_;
+  mission::AutonomyLevel level_;
   bool held_ = false;
   std::set<std::string> held_activities_;
   std::set<std::string> approved_;

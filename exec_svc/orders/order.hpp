@@ -6,7 +6,7 @@
 
 #include "core/temporal/value.hpp"
 #include "exec_svc/goals/goal_set.hpp"
-#include "exec_svc/orders/autonomy_level.hpp"
+#include "exec_svc/mission/autonomy_level.hpp"
 #include "exec_svc/orders/issued_key.hpp"
 
 namespace roci::exec::orders {
@@ -37,7 +37,7 @@ struct Order {
   std::string target;
   temporal::Value content;
   std::string choice;
-  AutonomyLevel level = AutonomyLevel::e4;
+  mission::AutonomyLevel level = mission::AutonomyLevel::e4;
   std::string upload;
   std::uint32_t checksum = 0;  ///< CRC-32 of the upload
 };

@@ -47,7 +47,7 @@ std::string ContinuousPlanning::fault_of(Time now, const temporal::PlanDelta& de
   const mission::MissionModel& mission = *parts_.state.mission;
   if (!takes_plans()) return "the robot is not ready for a plan";
   if (parts_.state.phase == MissionPhase::executing &&
-      parts_.state.authority.level() != orders::AutonomyLevel::e4)
+      parts_.state.authority.level() != mission::AutonomyLevel::e4)
     return std::string("the running plan stays as it is at autonomy level ") +
            to_string(parts_.state.authority.level());
   if (delta.added.engine != mission.planner.engine)

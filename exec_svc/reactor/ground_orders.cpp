@@ -13,7 +13,7 @@
 namespace roci::exec::reactor {
 
 using executive::OutcomeKind;
-using orders::AutonomyLevel;
+using mission::AutonomyLevel;
 using orders::IssuedKey;
 using orders::Order;
 using orders::OrderKind;

@@ -136,7 +136,7 @@ void PlanningCycle::adopt(Time now, const PlanReply& reply) {
 }
 
 void PlanningCycle::set_start_times(temporal::FlexiblePlan& plan) const {
-  if (state_->authority.level() == orders::AutonomyLevel::e2) {
+  if (state_->authority.level() == mission::AutonomyLevel::e2) {
     fix_starts(plan);
   } else if (state_->mission->executive.start == executive::StartPolicy::latest) {
     prefer_latest_starts(plan);

@@ -78,7 +78,7 @@ ReactorOutputs Reactor::step(Time now, const ReactorInputs& came_in) {
   return std::move(state.out);
 }
 
-void Reactor::restore_authority(orders::AutonomyLevel level, bool held) {
+void Reactor::restore_authority(mission::AutonomyLevel level, bool held) {
   parts_->state.authority.set_level(level);
   parts_->state.authority.hold_all(held);
   parts_->ground.reinstate();
@@ -227,7 +227,7 @@ const std::map<std::string, temporal::Value>& Reactor::concluded() const {
   return parts_->state.beliefs.concluded();
 }
 
-orders::AutonomyLevel Reactor::autonomy() const { return parts_->state.authority.level(); }
+mission::AutonomyLevel Reactor::autonomy() const { return parts_->state.authority.level(); }
 
 bool Reactor::held() const { return parts_->state.authority.held(); }
 

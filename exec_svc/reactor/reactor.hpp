@@ -28,7 +28,7 @@ class Reactor {
   void restore(const std::vector<goals::GoalRecord>& goals, std::uint32_t last_plan_version);
 
   /// The same for what the ground leaves to the executive.
-  void restore_authority(orders::AutonomyLevel level, bool held);
+  void restore_authority(mission::AutonomyLevel level, bool held);
 
   /// The same for what plans have made of timelines that nobody observes.
   void restore_concluded(const std::map<std::string, temporal::Value>& concluded);
@@ -66,7 +66,7 @@ class Reactor {
   const std::map<std::string, temporal::Value>& observed() const;
   /// What plans have made of timelines that nobody observes.
   const std::map<std::string, temporal::Value>& concluded() const;
-  orders::AutonomyLevel autonomy() const;
+  mission::AutonomyLevel autonomy() const;
   /// Returns whether nothing new starts, by order.
   bool held() const;
   /// "achieved": every hard goal, and there was one (a console's goals that were rejected do not count:

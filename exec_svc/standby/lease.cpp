@@ -63,11 +63,11 @@ void Lease::hear_leader(std::uint64_t epoch, Moment now) {
   if (role_ == Role::following && epoch == persisted_term_.epoch) leaderless_since_ = now;
 }
 
-void Lease::hear(const OwnerWord& word, Moment now) {
-  owner_leases_.hear(word, now);
-  note_led(word.newest_epoch);
+void Lease::hear(const LeaseReport& report, Moment now) {
+  owner_leases_.hear(report, now);
+  note_led(report.newest_epoch);
   // Somebody has commanded in a later epoch, and this member has not heard of it.
-  note_epoch(std::min(word.newest_epoch, persisted_term_.epoch + kEpochJump));
+  note_epoch(std::min(report.newest_epoch, persisted_term_.epoch + kEpochJump));
 }
 
 bool Lease::believable(std::uint64_t epoch) const {

@@ -80,7 +80,7 @@ class Lease {
   void hear_leader(std::uint64_t epoch, Moment now);
   /// Takes in what an owner says of its lease. A leader that learns from it that the other member has led in an epoch
   /// that its journal does not hold stands down and leads anew, in doubt: what was commanded then is not known here.
-  void hear(const OwnerWord& word, Moment now);
+  void hear(const LeaseReport& report, Moment now);
   /// Takes in that an owner refused this leader: somebody leads in this epoch or a later one. Whoever of the pair
   /// leads next does so in a later one still.
   void refused(std::uint64_t epoch);

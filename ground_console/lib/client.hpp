@@ -96,7 +96,7 @@ class Client {
 
  private:
   template <class T>
-  void follow(const services::Topic<T>& topic);
+  void follow(const services::topics::Topic<T>& topic);
 
   MissionView view_;
   std::int64_t launcher_ = 0;  // 0: none is watched

@@ -13,7 +13,7 @@
 #include "core/temporal/projection.hpp"
 #include "planner_svc/engine/answer.hpp"
 #include "planner_svc/engine/data_product.hpp"
-#include "planner_svc/engine/outlook.hpp"
+#include "planner_svc/engine/mission_outlook.hpp"
 #include "planner_svc/engine/request.hpp"
 
 namespace roci::planner::engine {

@@ -1,5 +1,5 @@
 // The kit of whoever commands subsystems and is no planner's executive: sends a command until it is heard, and tells
-// its owner's last word once. The counterpart of services/owner, whose rules on keys and epochs it keeps.
+// its owner's last status once. The counterpart of services/owner, whose rules on keys and epochs it keeps.
 #pragma once
 
 #include <cstdint>
@@ -37,9 +37,9 @@ struct Issued {
 /// Commands in the name of its node. Lives as long as the node's loop runs.
 class CommandClient {
  public:
-  /// Called once with the owner's last word: completed, failed, cancelled or rejected. Failures of our own have the
+  /// Called once with the owner's last status: completed, failed, cancelled or rejected. Failures of our own have the
   /// codes `no-answer` and `owner-lost`; with settle() `unknown` says that the owner has never heard of it.
-  using OnEnd = std::function<void(const owner::Word&)>;
+  using OnEnd = std::function<void(const owner::CommandStatus&)>;
   /// Called before a key goes out for the first time; what it does not keep is forgotten with the process.
   using OnIssue = std::function<void(const Issued&)>;
 
@@ -84,7 +84,7 @@ class CommandClient {
   void ask_again(const Key& key);
   void hear(const v1::CommandAck& ack);
   void take(const Key& key, UnderWay& one, const v1::CommandAck& ack);
-  void end(const Key& key, owner::Word word);
+  void end(const Key& key, owner::CommandStatus status);
 
   Node& node_;
   std::uint64_t epoch_;

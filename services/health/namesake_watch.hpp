@@ -33,7 +33,7 @@ class NamesakeWatch {
   /// So many namesakes are looked after at a time.
   static constexpr std::size_t kMost = 8;
 
-  enum class Verdict {
+  enum class Precedence {
     nothing,  ///< it is this process, or not heard for long enough, or told before
     goes_on,  ///< the namesake ends; operators are to be told of it
     yields,   ///< this process must end
@@ -43,7 +43,7 @@ class NamesakeWatch {
   explicit NamesakeWatch(v1::Heartbeat self) : self_(std::move(self)) {}
 
   /// Takes a heartbeat of this run.
-  Verdict hear(const v1::Heartbeat& beat, clock::WallTime now);
+  Precedence hear(const v1::Heartbeat& beat, clock::WallTime now);
 
  private:
   struct Namesake {

@@ -7,7 +7,7 @@
 
 #include "services/node/endpoints.hpp"
 #include "services/node/key_words.hpp"
-#include "services/topics.hpp"
+#include "services/topics/topics.hpp"
 #include "services/transport/type_support.hpp"
 
 namespace roci::services::node {
@@ -82,7 +82,7 @@ std::size_t size_as(const void* value) {
 }
 
 template <class T>
-TopicSpec spec_of(const Topic<T>& topic) {
+TopicSpec spec_of(const topics::Topic<T>& topic) {
   Codec codec;
   codec.type = transport::describe_type<T>(topic.type_name);
   codec.decode = &decode_as<T>;

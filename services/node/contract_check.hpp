@@ -44,7 +44,7 @@ class ContractCheck {
  public:
   using Lookup = std::function<std::optional<transport::Participant>(const transport::Guid&)>;
 
-  enum class Verdict {
+  enum class Agreement {
     same,       ///< The participant announced our hash of the type.
     different,  ///< It announced another one, or none.
     unknown,    ///< It has not been discovered yet: ask again.
@@ -55,7 +55,7 @@ class ContractCheck {
 
   /// The loop's thread asks this of the writer of each sample. The first `different` of a participant and topic is a
   /// mismatch to be told.
-  Verdict judge(const ContractTopic&, const transport::Guid& remote);
+  Agreement judge(const ContractTopic&, const transport::Guid& remote);
 
   /// Any thread says that a writer or a reader of another participant was matched on a topic: a mismatch is told
   /// although no sample may ever come.

@@ -33,7 +33,7 @@ class DatagramWatch {
   const transport::RefusesDatagrams* const transport_;
   std::optional<clock::WallTime> asked_;
   std::map<std::string, std::uint64_t>
-      due_;  // the count that is told next, by reason; there are as many as verdicts
+      due_;  // the count that is told next, by reason; there are as many as a guard has
 };
 
 }  // namespace roci::services::node

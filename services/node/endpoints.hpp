@@ -18,7 +18,7 @@
 #include "services/node/finished_instances.hpp"
 #include "services/node/inbox.hpp"
 #include "services/node/node_options.hpp"
-#include "services/node/refusals.hpp"
+#include "services/node/rejected_samples.hpp"
 #include "services/node/run_identity.hpp"
 #include "services/transport/forgets_instances.hpp"
 #include "services/transport/payload_limit.hpp"
@@ -119,7 +119,7 @@ struct TopicReader {
 class Endpoints {
  public:
   Endpoints(const NodeOptions&, const RunIdentity&, TopicWriter::Now, transport::Transport&, Inbox&,
-            ContractCheck&, Refusals&);
+            ContractCheck&, RejectedSamples&);
   ~Endpoints();
 
   /// Return the node's one writer or reader of a topic. They throw std::logic_error if the topic is known
@@ -144,7 +144,7 @@ class Endpoints {
   transport::Transport& transport_;
   Inbox& inbox_;
   ContractCheck& contract_;
-  Refusals& refusals_;
+  RejectedSamples& rejected_;
   std::map<std::string, std::unique_ptr<TopicWriter>> out_;
   std::map<std::string, std::unique_ptr<TopicReader>> in_;
   std::map<std::string, std::uint64_t> reported_;

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "services/node/endpoints.hpp"
-#include "services/topics.hpp"
+#include "services/topics/topics.hpp"
 
 namespace roci::services::node {
 namespace {

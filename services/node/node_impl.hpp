@@ -23,7 +23,7 @@
 #include "services/node/link_gate.hpp"
 #include "services/node/loop.hpp"
 #include "services/node/node_options.hpp"
-#include "services/node/refusals.hpp"
+#include "services/node/rejected_samples.hpp"
 #include "services/node/timer_queue.hpp"
 #include "services/transport/transport.hpp"
 
@@ -67,7 +67,7 @@ class NodeImpl {
   RunIdentity run;
   std::unique_ptr<transport::Transport> transport;
   ContractCheck contract;
-  Refusals refusals;
+  RejectedSamples rejected;
   DatagramWatch datagrams;
   Inbox inbox;
   TimerQueue timers;

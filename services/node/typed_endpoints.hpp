@@ -6,7 +6,7 @@
 #include <type_traits>
 #include <utility>
 
-#include "services/topics.hpp"
+#include "services/topics/topics.hpp"
 
 namespace roci::services::node {
 
@@ -16,8 +16,8 @@ class TopicWriter;
 /// Defined and instantiated in typed_endpoints.cpp, so that users of this header compile no serialization.
 template <class T>
 struct TypedEndpoints {
-  static TopicWriter& advertise(NodeImpl&, const Topic<T>&);
-  static void subscribe(NodeImpl&, const Topic<T>&, std::function<void(const T&)>);
+  static TopicWriter& advertise(NodeImpl&, const topics::Topic<T>&);
+  static void subscribe(NodeImpl&, const topics::Topic<T>&, std::function<void(const T&)>);
   static bool write(TopicWriter&, T&&);
   static bool dispose(TopicWriter&, const T&);
 };
@@ -28,12 +28,12 @@ int matched_readers(const TopicWriter&);
 std::uint64_t written(const TopicWriter&);
 
 template <class T>
-TopicWriter& advertise(NodeImpl& node, const Topic<T>& topic) {
+TopicWriter& advertise(NodeImpl& node, const topics::Topic<T>& topic) {
   return TypedEndpoints<T>::advertise(node, topic);
 }
 
 template <class T>
-void subscribe(NodeImpl& node, const Topic<T>& topic,
+void subscribe(NodeImpl& node, const topics::Topic<T>& topic,
                std::type_identity_t<std::function<void(const T&)>> on_value) {
   TypedEndpoints<T>::subscribe(node, topic, std::move(on_value));
 }

@@ -58,7 +58,7 @@ struct Request {
   std::uint64_t number = 0;
 };
 
-/// `accepted` is no last word; `cancel_failed` and `unknown` answer a cancel or a query and are no word on
+/// `accepted` is no last status; `cancel_failed` and `unknown` answer a cancel or a query and are no status of
 /// the activity. The order is the one of CommandStage in idl/command.idl.
 enum class Stage { accepted, rejected, completed, failed, cancelled, cancel_failed, unknown };
 
@@ -70,19 +70,19 @@ struct Results {
   bool operator==(const Results&) const = default;
 };
 
-/// Is a word of the owner on a command: a stable code for programs, a reason in plain words.
-struct Word {
+/// Is where a command stands, as its owner reports it: a stable code for programs, a reason in plain words.
+struct CommandStatus {
   Stage stage = Stage::accepted;
   std::string code{};
   std::string reason{};
   Results results{};
-  bool operator==(const Word&) const = default;
+  bool operator==(const CommandStatus&) const = default;
 };
 
-/// Is the word as it goes out.
+/// Is the status as it goes out.
 struct Ack {
   CommandKey key;
-  Word word;
+  CommandStatus status;
   temporal::Time at{};
   std::uint64_t newest_epoch = 0;  ///< that the owner has taken of who asked; else of the key's commander
   bool refused_epoch = false;      ///< the request came from an older one

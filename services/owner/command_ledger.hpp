@@ -31,7 +31,7 @@ struct Reception {
   std::optional<Notice> notice{};  ///< is to be told
 };
 
-/// Is what must outlive the owner's process: a key with its last word (none: it was taken), and the newest
+/// Is what must outlive the owner's process: a key with its last status (none: it was taken), and the newest
 /// epoch of whoever sent it.
 struct LedgerEntry {
   /// Other kinds name no activity: `epoch` keeps a sender's newest epoch alone, `forgotten` says that every key of the
@@ -40,14 +40,14 @@ struct LedgerEntry {
   CommandKey key;
   std::string sender;
   std::uint64_t epoch = 0;
-  std::optional<Word> word{};
+  std::optional<CommandStatus> status{};
   std::uint32_t plan = 0;
   Kind kind = Kind::command;
   bool operator==(const LedgerEntry&) const = default;
 };
 
-/// Takes each key once. What repeats it, and every query, gets the last word again. A cancel has two phases:
-/// the order to break off, and how that went. What ended keeps its last word until it is one of the oldest of many
+/// Takes each key once. What repeats it, and every query, gets the last status again. A cancel has two phases:
+/// the order to break off, and how that went. What ended keeps its last status until it is one of the oldest of many
 /// (retention.hpp); then its key is still never taken again, and its answer is `failed`, `forgotten`.
 ///
 /// Epochs are counted by who sends. A command or a cancel that is taken raises its sender's epoch, by kEpochJump at
@@ -74,9 +74,9 @@ class CommandLedger {
   /// Returns who holds the lease of a robot's subsystem, or "" if nobody does.
   std::string lease_holder(const std::string& robot, const std::string& subsystem) const;
 
-  /// Takes the owner's word on a command that it took and that has no last word yet: accepted, rejected,
+  /// Takes the owner's status of a command that it took and that has no last status yet: accepted, rejected,
   /// completed, failed or cancelled. Returns nothing, without effect, if there is no such command.
-  std::optional<Ack> say(const CommandKey&, Word, temporal::Time now);
+  std::optional<Ack> say(const CommandKey&, CommandStatus, temporal::Time now);
   /// Takes in that the command runs on although somebody wanted it cancelled. Returns nothing if nobody does.
   std::optional<Ack> refuse_cancel(const CommandKey&, std::string reason, temporal::Time now);
 
@@ -91,9 +91,9 @@ class CommandLedger {
   /// failed.
   std::vector<CommandKey> take_overruns(temporal::Time now);
 
-  /// Returns the commands of the robot's subsystem that have no last word.
+  /// Returns the commands of the robot's subsystem that have no last status.
   std::vector<CommandKey> open(const std::string& robot, const std::string& subsystem) const;
-  /// Returns the key's last word, with stage `unknown` for a key never taken.
+  /// Returns the key's last status, with stage `unknown` for a key never taken.
   Ack answer(const CommandKey&, temporal::Time now) const;
 
   /// Returns what is new since the last call, in order; what is not kept before it is acted upon is lost with the
@@ -116,7 +116,7 @@ class CommandLedger {
     std::string robot;
     std::string subsystem;
     std::optional<temporal::Time> latest_end;
-    std::optional<Word> word;  // empty: taken, and nothing said so far
+    std::optional<CommandStatus> status;  // empty: taken, and nothing said so far
     temporal::Time accepted{};
     bool cancelling = false;
     bool repaired = false;
@@ -128,10 +128,10 @@ class CommandLedger {
     std::uint32_t incarnation = 0;
     std::uint64_t number = 0;
   };
-  enum class Standing { current, stale, doubled, ahead, unknown };
+  enum class EpochStatus { current, stale, doubled, ahead, unknown };
 
-  Standing standing_of(const Request&) const;
-  std::optional<Reception> refuse(const Request&, Standing, temporal::Time now) const;
+  EpochStatus epoch_status_of(const Request&) const;
+  std::optional<Reception> refuse(const Request&, EpochStatus, temporal::Time now) const;
   Reception refuse_fallback(const Request&, const std::string& holder, temporal::Time now) const;
   void raise(const Request&);
   Reception execute(const Request&, temporal::Time now);
@@ -140,7 +140,7 @@ class CommandLedger {
   Record* open_record(const CommandKey&);
   std::optional<Ack> answer_if_forgotten(const Request&, temporal::Time now) const;
   void end(const CommandKey&, const Record&);
-  Ack ack(const CommandKey&, Word, temporal::Time now) const;
+  Ack ack(const CommandKey&, CommandStatus, temporal::Time now) const;
 
   std::map<std::string, Commander> commanders_;                        // by who sends
   std::map<std::pair<std::string, std::string>, std::string> leases_;  // who holds it, by robot and subsystem

@@ -1,5 +1,5 @@
 // The command server takes the commands of one owner on its node: requests come in by the topic `command`,
-// the ledger applies the rules, the driver does what is to be done, and its words go out by `command_ack`.
+// the ledger applies the rules, the driver does what is to be done, and its statuses go out by `command_ack`.
 #pragma once
 
 #include <filesystem>
@@ -22,12 +22,12 @@ class Driver {
   virtual ~Driver() = default;
   /// Is called before each request, so that what has happened by now is said first.
   virtual void catch_up() {}
-  /// Carries out a new command. The answer is say(accepted) or say(rejected), and one last word when it has
+  /// Carries out a new command. The answer is say(accepted) or say(rejected), and one last status when it has
   /// ended.
   virtual void carry_out(const Request&) = 0;
-  /// Ends the command early; `why` is the word to say when it has ended (cancelled on request, stopped, or
+  /// Ends the command early; `why` is the status to say when it has ended (cancelled on request, stopped, or
   /// failed by an overrun). A driver that cannot break off says refuse_cancel().
-  virtual void break_off(const CommandKey&, const Word& why) = 0;
+  virtual void break_off(const CommandKey&, const CommandStatus& why) = 0;
   /// Is told that somebody has asked what became of the command, before that one is answered.
   virtual void asked_about(const CommandKey&) {}
 };
@@ -49,7 +49,7 @@ class CommandServer {
   /// driver that knows its subsystems better gets stops by carry_out(), like other commands.
   void leave_stops_to_driver() { driver_stops_ = true; }
 
-  /// Keeps keys, last words and epochs in this file, before anything is done about them, and takes up what an
+  /// Keeps keys, last statuses and epochs in this file, before anything is done about them, and takes up what an
   /// earlier process of this owner left there: it does not carry out again what that one has begun, and answers
   /// queries as it would have. What that one had not ended has failed (`owner-restarted`), but for the command that the
   /// driver resumes. To be called before the loop runs. Returns whether there is such a one. Throws std::runtime_error
@@ -59,7 +59,7 @@ class CommandServer {
   void say_again(const CommandKey&);
 
   /// These return false if the ledger has no such command, or it has ended (command_ledger.hpp).
-  bool say(const CommandKey&, Word);
+  bool say(const CommandKey&, CommandStatus);
   bool refuse_cancel(const CommandKey&, std::string reason);
   /// Returns false if there is no time for a repair; the driver fails the command then.
   bool repair(const CommandKey&, std::string reason);

@@ -1,4 +1,4 @@
-// The retention of ended commands: an owner that runs for years keeps the last words of the newest ones and can tell an
+// The retention of ended commands: an owner that runs for years keeps the last statuses of the newest ones and can tell an
 // older key from one that it never heard.
 #pragma once
 
@@ -27,13 +27,13 @@ struct IssueMark {
 /// A commander that tells neither epochs nor plans has one mark for everything, and none of its keys is forgotten.
 class Retention {
  public:
-  /// So many ended commands keep their last word. Whoever asks for one asks for what it commanded last: after a lost
+  /// So many ended commands keep their last status. Whoever asks for one asks for what it commanded last: after a lost
   /// answer or a restart, a handful.
   static constexpr std::size_t kKept = 1000;
 
   /// Takes in that the key was taken.
   void taken(const CommandKey&, std::uint32_t plan);
-  /// Takes in that the key has its last word.
+  /// Takes in that the key has its last status.
   void ended(const CommandKey&, std::uint32_t plan);
 
   /// Returns the keys to be forgotten now, and marks them; each once. There are none until kKept more have ended.

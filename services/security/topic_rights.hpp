@@ -43,7 +43,7 @@ struct TopicRights {
   std::set<Role> readers;
 };
 
-/// A row for each topic of services/topics.hpp.
+/// A row for each topic of services/topics/topics.hpp.
 std::span<const TopicRights> topic_rights();
 
 /// What a program of ours does in a run; empty for a program that is not ours.

@@ -9,7 +9,7 @@ namespace roci::services::transport {
 
 /// Counts those of one reason, since the transport was opened.
 struct RefusedDatagrams {
-  /// Is one of a few words, e.g. "stranger" (vendors/guard/verdict.hpp).
+  /// Is one of a few words, e.g. "stranger" (vendors/guard/datagram_admission.hpp).
   std::string reason;
   std::uint64_t count = 0;
   /// Names the sender of the last one, as address and port; it is empty where nobody knows.

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "planner_svc/engine/outlook.hpp"
+#include "planner_svc/engine/mission_outlook.hpp"
 #include "planner_svc/utility_htn/cycle/cycle.hpp"
 #include "planner_svc/utility_htn/delivery/delivery.hpp"
 

@@ -37,11 +37,11 @@ class UnknownNames {
   void report(mission::Findings& findings, std::size_t most) const;
 
  private:
-  struct Standing {
+  struct Occurrences {
     Unknown unknown;
     std::vector<std::string> places;
   };
-  std::vector<Standing> all_;
+  std::vector<Occurrences> all_;
   std::map<std::pair<std::string, std::string>, std::size_t> known_;  // by kind and name
   std::set<std::string> hidden_;
   std::size_t failures_ = 0;

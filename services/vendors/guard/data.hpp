@@ -5,7 +5,7 @@
 
 namespace roci::services::vendors::guard {
 
-Verdict examine_data(const Submessage&, const GuidPrefix& sender);
-Verdict examine_data_fragment(const Submessage&, const GuidPrefix& sender);
+DatagramAdmission examine_data(const Submessage&, const GuidPrefix& sender);
+DatagramAdmission examine_data_fragment(const Submessage&, const GuidPrefix& sender);
 
 }  // namespace roci::services::vendors::guard

@@ -43,23 +43,23 @@ class Guard {
   /// In a secure run: the vendor has given this participant up.
   void gave_up(const GuidPrefix&);
 
-  /// How many datagrams had each verdict.
-  std::array<std::uint64_t, kVerdicts> counts() const;
+  /// How many datagrams had each admission.
+  std::array<std::uint64_t, kAdmissions> counts() const;
   /// The same for operators, without those that passed and those that were left out as plain text.
   std::vector<transport::RefusedDatagrams> refused() const;
 
  private:
-  Verdict judge(std::span<const std::uint8_t> datagram, const std::optional<Source>&);
+  DatagramAdmission judge(std::span<const std::uint8_t> datagram, const std::optional<Source>&);
   std::size_t admit_secure(std::span<std::uint8_t> message);
-  void report(Verdict, const std::optional<Source>&);
+  void report(DatagramAdmission, const std::optional<Source>&);
   static void tell_of_parting();
 
   const Policy policy_;
   mutable std::mutex mutex_;
   Identities identities_;
-  std::array<std::uint64_t, kVerdicts> counts_{};
-  std::array<std::optional<Source>, kVerdicts> last_sources_{};
-  std::array<std::uint64_t, kVerdicts> reported_{};
+  std::array<std::uint64_t, kAdmissions> counts_{};
+  std::array<std::optional<Source>, kAdmissions> last_sources_{};
+  std::array<std::uint64_t, kAdmissions> reported_{};
   std::optional<Identities::Time> last_report_;
 
   // What is encrypted, both ways, passes this lock by as long as there is no silence.

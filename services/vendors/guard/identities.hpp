@@ -9,8 +9,8 @@
 #include <map>
 #include <unordered_map>
 
+#include "services/vendors/guard/datagram_admission.hpp"
 #include "services/vendors/guard/parameters.hpp"
-#include "services/vendors/guard/verdict.hpp"
 
 namespace roci::services::vendors::guard {
 
@@ -42,7 +42,7 @@ class Identities {
   explicit Identities(bool secure = false) : secure_(secure) {}
 
   /// pass, taken_identity or crowd.
-  Verdict claim(const GuidPrefix&, const Source&, Time now);
+  DatagramAdmission claim(const GuidPrefix&, const Source&, Time now);
 
  private:
   struct HashPrefix {

@@ -1,13 +1,13 @@
-// Judges RTPS messages before a vendor's parser sees them. Pure: the same bytes give the same verdict.
+// Judges RTPS messages before a vendor's parser sees them. Pure: the same bytes give the same admission.
 #pragma once
 
 #include <cstdint>
 #include <functional>
 #include <span>
 
+#include "services/vendors/guard/datagram_admission.hpp"
 #include "services/vendors/guard/parameters.hpp"
 #include "services/vendors/guard/submessages.hpp"
-#include "services/vendors/guard/verdict.hpp"
 
 namespace roci::services::vendors::guard {
 
@@ -16,7 +16,7 @@ inline constexpr std::size_t kHeaderSize = 20;  ///< of an RTPS message
 /// A message that passes is well-formed down to its submessages (RTPS 2.3, 8.3 and 9.4), claims no sample over
 /// kMaxSampleBytes, and speaks in discovery for its sender alone. What DDS Security has encrypted passes as it is;
 /// payloads of user topics are not looked into. It never says `stranger`, `taken_identity` or `crowd`.
-Verdict examine(std::span<const std::uint8_t> datagram);
+DatagramAdmission examine(std::span<const std::uint8_t> datagram);
 
 /// The participant that a message says it is from. It must have an RTPS header.
 GuidPrefix sender_of(std::span<const std::uint8_t> message);

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "services/vendors/guard/byte_view.hpp"
-#include "services/vendors/guard/verdict.hpp"
+#include "services/vendors/guard/datagram_admission.hpp"
 
 namespace roci::services::vendors::guard {
 
@@ -17,15 +17,15 @@ bool may_speak_for(const GuidPrefix& sender, std::span<const std::uint8_t> other
 
 enum class ListKind { inline_qos, discovery };
 
-struct ListVerdict {
-  Verdict verdict = Verdict::pass;
+struct ListAdmission {
+  DatagramAdmission admission = DatagramAdmission::pass;
   std::size_t size = 0;  ///< Of the list with its sentinel, in bytes; 0 unless it passes.
 };
 
 /// Judges the list at the beginning of `list`: lengths, and the inner lengths of the parameters in which parsers have
 /// had faults (names, partitions, properties, key hash, status, locators). With `only_guids_of`, each GUID and key hash
 /// in it must be of one for which that participant may speak.
-ListVerdict examine_parameters(const ByteView& list, ListKind,
-                               const std::optional<GuidPrefix>& only_guids_of);
+ListAdmission examine_parameters(const ByteView& list, ListKind,
+                                 const std::optional<GuidPrefix>& only_guids_of);
 
 }  // namespace roci::services::vendors::guard

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "services/vendors/guard/byte_view.hpp"
+#include "services/vendors/guard/datagram_admission.hpp"
 #include "services/vendors/guard/parameters.hpp"
-#include "services/vendors/guard/verdict.hpp"
 
 namespace roci::services::vendors::guard {
 
@@ -14,7 +14,7 @@ struct Submessage {
 };
 
 /// `id` is below 0x80; `sender` is the participant of the message's header.
-Verdict examine_submessage(const Submessage&, const GuidPrefix& sender);
+DatagramAdmission examine_submessage(const Submessage&, const GuidPrefix& sender);
 
 /// What a submessage is in a secure run if it is not encrypted together with its message.
 enum class Plain {

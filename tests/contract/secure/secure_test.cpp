@@ -196,7 +196,7 @@ TEST_P(Secure, ASampleInTheNameOfAnotherServiceIsRefused) {
   while (heard.empty() && std::chrono::steady_clock::now() < end)
     node.spin_once(std::chrono::milliseconds(50));
   EXPECT_THAT(heard, testing::ElementsAre("science_svc/find"));
-  EXPECT_EQ(node.impl().refusals.count(topics::goal.name, node::Refusal::another_name), 2U);
+  EXPECT_EQ(node.impl().rejected.count(topics::goal.name, node::SampleRejection::another_name), 2U);
 }
 
 INSTANTIATE_TEST_SUITE_P(Vendors, Secure, kEveryNetworkPairing, pairing_name);

@@ -22,12 +22,12 @@ class LedgerFileTest : public testing::Test {
       {"p1.1-drive", 2, "exec_svc", 3},
       "",
       0,
-      Word{Stage::completed,
-           "done",
-           "at \"wp-2\"\n",
-           {temporal::seconds(7),
-            2.5,
-            {{"ok", true}, {"n", 0.5}, {"at", temporal::state("idle-at", {"wp-2"})}, {"no", {}}}}}};
+      CommandStatus{Stage::completed,
+                    "done",
+                    "at \"wp-2\"\n",
+                    {temporal::seconds(7),
+                     2.5,
+                     {{"ok", true}, {"n", 0.5}, {"at", temporal::state("idle-at", {"wp-2"})}, {"no", {}}}}}};
 };
 
 TEST_F(LedgerFileTest, GivesBackWhatWasAppended) {

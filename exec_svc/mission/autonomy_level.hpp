@@ -1,7 +1,7 @@
 /// How much the executive decides without the ground.
 #pragma once
 
-namespace roci::exec::orders {
+namespace roci::exec::mission {
 
 /// Levels of autonomous execution, after those of ECSS-E-ST-70-11C, in the order of AutonomyLevel in idl/order.idl.
 enum class AutonomyLevel {
@@ -13,4 +13,4 @@ enum class AutonomyLevel {
 /// "E1" to "E4".
 const char* to_string(AutonomyLevel level);
 
-}  // namespace roci::exec::orders
+}  // namespace roci::exec::mission

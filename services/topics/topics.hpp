@@ -22,7 +22,7 @@
 #include "services/transport/qos.hpp"
 #include "services/transport/scope.hpp"
 
-namespace roci::services {
+namespace roci::services::topics {
 
 template <class T>
 struct Topic {
@@ -33,8 +33,6 @@ struct Topic {
   transport::Scope scope;
   transport::PayloadLimit limit;
 };
-
-namespace topics {
 
 using enum transport::Clocking;
 using enum transport::Scope;
@@ -118,5 +116,4 @@ inline constexpr Procedure<v1::ArmMotionRequest, v1::ArmMotionReply> arm_motion{
 
 // clang-format on
 
-}  // namespace topics
-}  // namespace roci::services
+}  // namespace roci::services::topics
