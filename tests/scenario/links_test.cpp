@@ -43,6 +43,13 @@ class LinksTest : public ::testing::TestWithParam<std::string> {
     return fly(mission(), dds, 1, "--scenario " + scenario);
   }
 
+  // Of one link, as the summary tells them; each sample offered has arrived, is lost or was superseded.
+  static nlohmann::json counts(int offered, int arrived, int lost, int superseded, int repeated) {
+    EXPECT_EQ(offered, arrived + lost + superseded);
+    return {{"offered", offered},       {"arrived", arrived}, {"lost", lost},
+            {"superseded", superseded}, {"under_way", 0},     {"repeated", repeated}};
+  }
+
   static fs::path folder_;
 };
 
@@ -66,15 +73,12 @@ TEST_P(LinksTest, AFifthIsLostAndTheMissionEndsAsStated) {
   const Flight flight = GetParam() == "inproc" ? reference : fly_scenario("bad", GetParam());
   EXPECT_EQ(flight.exit_code, 0) << flight.summary.dump();
   EXPECT_EQ(flight.summary["goals"].value("achieved", 0), 3);
-  const auto& links = flight.summary["links"];
-  EXPECT_GT(links["body"].value("lost", 0), 0);
-  EXPECT_GT(links["body"].value("repeated", 0), 20);
-  for (const char* link : {"uplink", "engine", "body"}) {
-    const int offered = links[link].value("offered", 0);
-    EXPECT_EQ(offered, links[link].value("arrived", 0) + links[link].value("lost", 0) +
-                           links[link].value("superseded", 0) + links[link].value("under_way", 0))
-        << link;
-  }
+  // A state that is lost is sent again until it arrives; lost for good are commands and calls, which their senders ask
+  // about, and events. The planner's link and the ground's carry too few samples to lose one for good.
+  const nlohmann::json stated{{"body", counts(1078, 1067, 10, 1, 288)},
+                              {"engine", counts(6, 6, 0, 0, 0)},
+                              {"uplink", counts(3, 3, 0, 0, 1)}};
+  EXPECT_EQ(flight.summary["links"], stated) << "the same on each transport";
   EXPECT_EQ(flight.summary.value("trace_sha256", "none"), reference.summary.value("trace_sha256", ""));
 }
 
