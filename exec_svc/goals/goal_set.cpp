@@ -89,6 +89,11 @@ bool same_request(const GoalRequest& one, const GoalRequest& other) {
 
 bool from_console(const GoalRequest& goal) { return goal.sample.incarnation == 0; }
 
+bool leaves_first(const GoalRecord& one, const GoalRecord& other) {
+  if (one.request.priority != other.request.priority) return one.request.priority < other.request.priority;
+  return one.arrival > other.arrival;
+}
+
 bool is_final(GoalState state) { return state != GoalState::pending && state != GoalState::planned; }
 
 std::string GoalSet::fault_of(const GoalRequest& request, temporal::Time now) const {
@@ -332,11 +337,14 @@ std::optional<GoalKey> GoalSet::drop_candidate(const std::vector<GoalKey>& among
   const GoalRecord* optional = nullptr;
   for (const GoalRecord* record : open()) {
     if (std::find(among.begin(), among.end(), record->request.key) == among.end()) continue;
-    if (record->request.importance == GoalClass::opportunistic) opportunistic = record;
-    if (record->request.importance == GoalClass::optional &&
-        (optional == nullptr || record->request.utility <= optional->request.utility)) {
+    const GoalRequest& goal = record->request;
+    if (goal.importance == GoalClass::opportunistic &&
+        (opportunistic == nullptr || leaves_first(*record, *opportunistic)))
+      opportunistic = record;
+    if (goal.importance == GoalClass::optional &&
+        (optional == nullptr || goal.utility < optional->request.utility ||
+         (goal.utility <= optional->request.utility && leaves_first(*record, *optional))))
       optional = record;
-    }
   }
   if (opportunistic != nullptr) return opportunistic->request.key;
   if (optional != nullptr) return optional->request.key;

@@ -79,6 +79,9 @@ enum class AckStage { journaled, held_by_both };
 
 bool is_final(GoalState state);
 
+/// Of goals that are worth the same, the one with the lower priority leaves first, of equal priority the newer one.
+bool leaves_first(const GoalRecord& one, const GoalRecord& other);
+
 class GoalSet {
  public:
   explicit GoalSet(const mission::MissionModel& mission) : mission_(&mission) {}
@@ -121,8 +124,9 @@ class GoalSet {
   std::vector<const GoalRecord*> all() const;
   const GoalRecord* find(const GoalKey& key) const;
 
-  /// Which goal goes when not all fit: the newest opportunistic one, else the optional one of the lowest
-  /// utility by rank (the newest of equals), never a hard one (R52, R53, R113; architecture, "Which goals go").
+  /// Which goal goes when not all fit: an opportunistic one, whatever its utility, else the optional one of the lowest
+  /// utility by rank; of equals as leaves_first() says; never a hard one (R52, R53, R113; architecture, "The way of a
+  /// goal").
   std::optional<GoalKey> drop_candidate() const;
   /// The same among these goals alone.
   std::optional<GoalKey> drop_candidate(const std::vector<GoalKey>& among) const;

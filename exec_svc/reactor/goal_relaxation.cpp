@@ -15,11 +15,13 @@ using temporal::Verdict;
 
 namespace {
 
-GoalKey newest_hard(const GoalSet& goals) {
-  GoalKey out;
-  for (const GoalRecord* record : goals.open())
-    if (record->request.importance == GoalClass::hard) out = record->request.key;
-  return out;
+GoalKey first_hard_to_leave(const GoalSet& goals) {
+  const GoalRecord* out = nullptr;
+  for (const GoalRecord* record : goals.open()) {
+    if (record->request.importance == GoalClass::hard && (out == nullptr || leaves_first(*record, *out)))
+      out = record;
+  }
+  return out == nullptr ? GoalKey{} : out->request.key;
 }
 
 /// Open goals that a proof blames, in the order of their arrival.
@@ -84,7 +86,7 @@ RelaxationStep relax(const PlanReply& reply, const GoalSet& goals, const Mission
   const std::vector<GoalKey> blamed = blamed_goals(reply, goals);
   if (!blamed.empty() && relaxed.soft_goals_left_out.empty() && goals.drop_candidate())
     return {Kind::leave_out_soft, {}, with_details("no plan has the hard goals beside it", reply)};
-  const auto hard = blamed.empty() ? std::vector{newest_hard(goals)} : blamed;
+  const auto hard = blamed.empty() ? std::vector{first_hard_to_leave(goals)} : blamed;
   const bool spend = keeps_reserves(mission) && relaxed.reserves == problem::Reserves::kept;
   return {spend ? Kind::spend_reserves : Kind::give_up_hard, leaving(reply, goals, hard), ""};
 }

@@ -212,6 +212,26 @@ TEST_F(GoalSetTest, DropsNewestOpportunisticThenOptionalOfLowestUtilityNeverHard
   EXPECT_EQ(goals.open().front()->request.key.id, "hard");
 }
 
+TEST_F(GoalSetTest, OfGoalsWorthTheSameTheLowestPriorityLeavesFirst) {
+  const auto submit = [this](const std::string& id, GoalClass importance, double utility, int priority) {
+    GoalRequest goal = photo(id, importance, utility);
+    goal.priority = priority;
+    EXPECT_EQ(fault(goal), "accepted");
+  };
+  submit("low", GoalClass::opportunistic, 9, -1);
+  submit("old", GoalClass::opportunistic, 1, 0);
+  submit("new", GoalClass::opportunistic, 1, 0);
+  submit("opt-low", GoalClass::optional, 2, 1);
+  submit("opt-high", GoalClass::optional, 2, 5);
+  submit("opt-cheap", GoalClass::optional, 1, 9);
+  std::vector<std::string> order;
+  while (const auto victim = goals.drop_candidate()) {
+    order.push_back(victim->id);
+    goals.set_state(*victim, GoalState::dropped, "test");
+  }
+  EXPECT_THAT(order, ::testing::ElementsAre("low", "new", "old", "opt-cheap", "opt-low", "opt-high"));
+}
+
 // Any gain of a higher rank outweighs every gain of the lower ones.
 TEST_F(GoalSetTest, UtilitiesAreComparedByRank) {
   const auto submit = [this](const std::string& id, temporal::RankVector utility) {

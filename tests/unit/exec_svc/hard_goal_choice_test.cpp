@@ -62,6 +62,24 @@ TEST_F(HardGoalChoice, WithoutTrialsTheNewestFailUntilTheOthersFit) {
   EXPECT_THAT(in_state(GoalState::failed), ElementsAre("a", "b"));
 }
 
+TEST_F(HardGoalChoice, OfGoalsWorthTheSameTheLowestPriorityFails) {
+  set_conflicts({{{"a", "b"}}});
+  GoalRequest low = photo("a");
+  low.priority = -1;
+  run(1000, robot_and({low, photo("b")}));
+  EXPECT_THAT(in_state(GoalState::failed), ElementsAre("a")) << "though b is newer";
+}
+
+TEST_F(HardGoalChoice, ATrialBeginsWithTheLowestPriority) {
+  mission.executive.hard_goal_trials = 10;
+  set_conflicts({{{"a", "b"}}});
+  GoalRequest low = photo("a");
+  low.priority = -1;
+  run(1000, robot_and({low, photo("b")}));
+  EXPECT_THAT(in_state(GoalState::failed), ElementsAre("a"));
+  EXPECT_EQ(std::count(trace.begin(), trace.end(), "goal.weighed"), 1);
+}
+
 TEST_F(HardGoalChoice, TheFewestFailThatLeaveAPlanForTheOthers) {
   mission.executive.hard_goal_trials = 10;
   set_conflicts(kBigAgainstSmall);
