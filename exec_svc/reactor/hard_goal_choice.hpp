@@ -14,8 +14,8 @@
 namespace roci::exec::reactor {
 
 /// The sets of these hard goals that might leave, in the order in which they are tried: smaller ones first, of
-/// equally many goals those of the least utility in all by rank, of equal utility as goals::leaves_first() says. At most
-/// `most`; never none or all of the goals, and no set of a size of which there are more than 10,000.
+/// equally many goals those of the least utility in all by rank, of equal utility as goals::leaves_first() says. At
+/// most `most`; never none or all of the goals, and no set of a size of which there are more than 10,000.
 std::vector<std::vector<goals::GoalKey>> leaving_sets(const goals::GoalSet& goals,
                                                       const std::vector<goals::GoalKey>& among,
                                                       std::size_t most);

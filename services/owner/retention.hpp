@@ -1,5 +1,5 @@
-// The retention of ended commands: an owner that runs for years keeps the last statuses of the newest ones and can tell an
-// older key from one that it never heard.
+// The retention of ended commands: an owner that runs for years keeps the last statuses of the newest ones and can tell
+// an older key from one that it never heard.
 #pragma once
 
 #include <compare>
