@@ -1,5 +1,5 @@
-// docs/dds.md has one table of all topics. It is made here, from services/topics/topics.hpp, the rights of topic_rights.hpp
-// and the keys of idl/, and compared with the page: a line that differs is printed as it should be.
+// docs/dds.md has one table of all topics. It is made here, from services/topics/topics.hpp, the rights of
+// topic_rights.hpp and the keys of idl/, and compared with the page: a line that differs is printed as it should be.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
