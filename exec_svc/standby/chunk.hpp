@@ -2,6 +2,7 @@
 // plain values.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -31,6 +32,9 @@ struct TransferProgress {
   std::uint32_t parts = 0;
   bool operator==(const TransferProgress&) const = default;
 };
+
+/// So many bytes of a whole journal has each of its parts at most.
+inline constexpr std::size_t kPartBytes = 128 * 1024;
 
 /// Splits a whole journal into parts, each sealed with its checksum.
 std::vector<Chunk> split(std::uint64_t leader, const journal::Position& at, const std::string& whole);

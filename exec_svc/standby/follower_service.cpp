@@ -4,6 +4,7 @@
 #include <iterator>
 #include <utility>
 
+#include "exec_svc/limits.hpp"
 #include "exec_svc/standby/standby_wire_service.hpp"
 #include "services/log/log.hpp"
 #include "services/node/make_event.hpp"
@@ -71,12 +72,27 @@ void FollowerService::take(const Chunk& chunk) {
   if (lead_) return;
   const JournalCopy::Result taken = copy_.take(chunk, lease_->epoch());
   if (taken == JournalCopy::Result::old || taken == JournalCopy::Result::corrupt) return;
+  if (taken == JournalCopy::Result::excess) tell_excess(chunk);
   lease_->hear_leader(chunk.leader, moment());
   if (taken == JournalCopy::Result::whole) {
     handed_over_ = apart_.goals();
     orders_replaced_at_ = moment();
   }
   if (taken != JournalCopy::Result::known) say();
+}
+
+// It is asked for anew by what say() tells that this member has.
+void FollowerService::tell_excess(const Chunk& chunk) {
+  const std::uint64_t times = refusals_.note("copy");
+  if (times == 0) return;
+  const std::string text = "a whole journal of " + std::to_string(chunk.parts) + " parts, one of " +
+                           std::to_string(chunk.bytes.size()) + " bytes, is refused: there is room for " +
+                           std::to_string(kJournalCopyBytes >> 20) + " MiB in parts of " +
+                           std::to_string(kPartBytes >> 10) + " KiB, as many as were announced (" +
+                           std::to_string(times) + " so far); until another one comes " + lease_->self() +
+                           " cannot take over";
+  services::log::warning(text);
+  events_.write(services::node::make_event(v1::SEVERITY_WARNING, "journal.no_room", text));
 }
 
 // Until the copy of the leader's journal shows that it has them.

@@ -12,6 +12,7 @@
 #include "exec_svc/standby/lease.hpp"
 #include "exec_svc/standby/orders_apart.hpp"
 #include "exec_svc/standby/persisted_term_file.hpp"
+#include "services/bounds/tally.hpp"
 #include "services/node.hpp"
 #include "services/publisher.hpp"
 
@@ -37,6 +38,7 @@ class FollowerService {
   void hear(const v1::LeaseMessage& member);
   void hear(const v1::LeaseState& state);
   void take(const Chunk& chunk);
+  void tell_excess(const Chunk& chunk);
   void hand_over();
   void tell_lost_orders();
   void tell_what_it_lacks(const Lease::Turn&);
@@ -51,6 +53,7 @@ class FollowerService {
   JournalCopy copy_;
   std::optional<Lease::Turn> lead_;
   std::set<std::string> told_to_lack_;
+  services::bounds::Tally refusals_;
   bool over_ = false;
   GoalsApart apart_;
   std::vector<goals::GoalRecord> handed_over_;  ///< that the leader may not have yet
