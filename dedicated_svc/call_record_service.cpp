@@ -6,9 +6,9 @@
 #include <system_error>
 #include <utility>
 
+#include "core/durable/durable_file.hpp"
 #include "dedicated_svc/limits.hpp"
 #include "services/owner/value_json.hpp"
-#include "services/process/durable_file.hpp"
 
 namespace roci::dedicated {
 namespace {
@@ -177,7 +177,7 @@ void CallRecord::write() {
   if (state_) out["state"] = owner::to_json(*state_);
   if (around_write_) around_write_();
   try {
-    services::process::replace_file(file_, out.dump(-1, ' ', false, json::error_handler_t::replace) + "\n");
+    durable::replace_file(file_, out.dump(-1, ' ', false, json::error_handler_t::replace) + "\n");
   } catch (const std::system_error&) {
     std::error_code ignored;
     std::filesystem::remove(file_, ignored);

@@ -160,7 +160,7 @@ class SimService final : public services::Service, private owner::Driver {
     }
     record_effects();
     record_begun();
-    if (kept_) kept_->keep(world_.memory());
+    if (kept_) kept_->keep(world_.memory(), services::clock::wall_now());
     run_end_.check();
     if (wake_) node_.cancel(*wake_);
     wake_.reset();
@@ -295,7 +295,7 @@ class SimService final : public services::Service, private owner::Driver {
     for (const world::Effect& one : world_.take_effects()) {
       effects_ << nlohmann::json{{"time_us", one.at.count()},    {"robot", one.robot},
                                  {"component", one.component},   {"kind", one.effect.kind},
-                                 {"object", one.effect.object},    {"commander", one.cause.commander},
+                                 {"object", one.effect.object},  {"commander", one.cause.commander},
                                  {"epoch", one.cause.epoch},     {"activity", one.cause.activity},
                                  {"attempt", one.cause.attempt}, {"incarnation", node_.options().incarnation}}
                       .dump()

@@ -115,8 +115,7 @@ void Journal::replace_with(std::string_view whole) {
   if (mark) mark->remove();  // it is of the journal that goes
   database_.reset();
   remove_database_logs(file_);  // they belong to the database that goes
-  fs::rename(arrived, file_);
-  if (durability_ == Durability::power) sync_path(file_.parent_path());
+  put_in_place(arrived, file_, durability_);
   database_ = std::make_unique<Database>(file_, durability_);
   database_->disk_wait = std::move(disk_wait);
   if (mark) database_->mark.emplace(std::move(*mark));

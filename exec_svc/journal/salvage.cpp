@@ -227,10 +227,10 @@ void quarantine(const fs::path& file, const fs::path& kept) {
   std::error_code none;
   fs::remove(fs::path(file).concat("-shm"), none);
   if (fs::exists(fs::path(file).concat("-wal")))
-    fs::rename(fs::path(file).concat("-wal"), fs::path(kept).concat("-wal"));
+    put_in_place(fs::path(file).concat("-wal"), fs::path(kept).concat("-wal"), Durability::power);
   const fs::path mark = HighWaterMark(file).file();
-  if (fs::exists(mark)) fs::rename(mark, HighWaterMark(kept).file());
-  fs::rename(file, kept);
+  if (fs::exists(mark)) put_in_place(mark, HighWaterMark(kept).file(), Durability::power);
+  put_in_place(file, kept, Durability::power);
 }
 
 }  // namespace
@@ -262,7 +262,7 @@ std::string damage_of(const fs::path& file) {
 void salvage_if_damaged(const fs::path& file) {
   const fs::path mended = fs::path(file).concat(".mended");
   if (!fs::exists(file) && fs::exists(mended))
-    fs::rename(mended, file);  // it was stopped between the two renames
+    put_in_place(mended, file, Durability::power);  // it was stopped between the two renames
   const std::string damage = damage_of(file);
   if (damage.empty()) return;
   const fs::path kept = free_name(file);
@@ -283,8 +283,7 @@ void salvage_if_damaged(const fs::path& file) {
     write_remains(mended, remains, summary_of(file.filename().string(), damage, remains, kept));
     sync_path(mended);
     quarantine(file, kept);
-    fs::rename(mended, file);
-    sync_path(file.parent_path());
+    put_in_place(mended, file, Durability::power);
   } catch (const fs::filesystem_error& error) {
     const bool of_the_disk =
         error.code() == std::errc::no_space_on_device || error.code() == std::errc::io_error;

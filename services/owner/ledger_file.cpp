@@ -5,13 +5,13 @@
 
 #include <cerrno>
 #include <cmath>
-#include <cstdio>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <system_error>
 #include <utility>
 
+#include "core/durable/durable_file.hpp"
 #include "services/log/log.hpp"
 #include "services/owner/value_json.hpp"
 
@@ -133,17 +133,22 @@ void LedgerFile::replace(const std::vector<LedgerEntry>& entries) {
   for (const LedgerEntry& entry : entries) text += line_of(entry);
   const std::filesystem::path next = std::filesystem::path(file_).concat(".new");
   const int descriptor = open_for_appending(next, O_TRUNC);
-  const bool written = write(descriptor, text.data(), text.size()) == static_cast<ssize_t>(text.size()) &&
-                       fsync(descriptor) == 0 && rename(next.c_str(), file_.c_str()) == 0;
-  if (!written) {
-    const int cause = errno;
+  const auto give_up = [&](int cause) {
     close(descriptor);
     unlink(next.c_str());
     throw std::system_error(cause, std::generic_category(), "cannot write " + next.string());
+  };
+  if (write(descriptor, text.data(), text.size()) != static_cast<ssize_t>(text.size())) give_up(errno);
+  if (fsync(descriptor) != 0) give_up(errno);
+  try {
+    durable::put_in_place(next, file_, durable::Durability::process);
+  } catch (const std::system_error& error) {
+    give_up(error.code().value());
   }
   close(std::exchange(descriptor_, descriptor));
   torn_ = false;
   appended_ = 0;
+  durable::sync_folder(std::filesystem::path(file_).parent_path());
 }
 
 }  // namespace roci::services::owner

@@ -56,6 +56,13 @@ TEST(ArchitectureTest, EachRuleCanBeBroken) {
   SourceFile source = file("exec_svc/a.cpp", "chrono");
   source.lines = {"const auto t = std::chrono::steady_clock::now();"};
   EXPECT_THAT(broken(source), ElementsAre(HasSubstr("asks the system for the time")));
+  for (const char* line : {"fs::rename(next, file);", "  std::filesystem::rename(next, file, error);",
+                           "rename(next.c_str(), file.c_str());"}) {
+    source.lines = {line};
+    EXPECT_THAT(broken(source), ElementsAre(HasSubstr("core/durable does, and syncs its folder"))) << line;
+  }
+  source.lines = {"  rename(activity.parent);"};
+  EXPECT_THAT(broken(source), IsEmpty()) << "of something else than a file";
   source.lines = {"if (mission == \"planetary\") return;"};
   EXPECT_THAT(broken(source), ElementsAre(HasSubstr("missions are data")));
   source.lines = {"endpoint.partitions = {\"roci.team\"};"};

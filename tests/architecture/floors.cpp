@@ -17,7 +17,7 @@ struct House {
 
 const std::vector<House> kHouses = {
     {"core/",
-     {"core/temporal/", "core/words/", "core/pseudorandom/", "core/mission/", "core/pddl/",
+     {"core/durable/", "core/temporal/", "core/words/", "core/pseudorandom/", "core/mission/", "core/pddl/",
       "core/kinematics/", "core/terrain/"}},
     {"services/",
      {"services/bounds/", "services/clock/", "services/link/", "services/log/", "services/wire/",

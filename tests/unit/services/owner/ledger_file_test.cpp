@@ -6,6 +6,8 @@
 
 #include <fstream>
 
+#include "tests/unit/core/durable/sync_record.hpp"
+
 namespace roci::services::owner {
 namespace {
 
@@ -56,6 +58,17 @@ TEST_F(LedgerFileTest, ALineThatWasCutShortOrIsNoEntryIsLeftOut) {
   LedgerFile file(path);
   file.append(ended);
   EXPECT_THAT(file.read(), ElementsAre(taken, ended));
+}
+
+// After a loss of power the folder could else have the old file, without what was appended to the new one.
+TEST_F(LedgerFileTest, BegunAnewItIsOnTheDiskUnderItsName) {
+  LedgerFile file(path);
+  file.append(taken);
+  durable::synced().clear();
+  file.replace({ended});
+  EXPECT_THAT(durable::synced(), ElementsAre(path.string() + ".new", path.parent_path().string()));
+  file.append(taken);
+  EXPECT_THAT(LedgerFile(path).read(), ElementsAre(ended, taken));
 }
 
 TEST_F(LedgerFileTest, AFolderIsNoFile) {
