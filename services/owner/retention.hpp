@@ -24,12 +24,15 @@ struct IssueMark {
 
 /// Says which ended keys may be forgotten. Guarantees: a key that was forgotten is recognised for good by its mark, so
 /// it is never carried out again; the newest kKept ended keys are not forgotten, nor any of a commander's newest plan.
-/// A commander that tells neither epochs nor plans has one mark for everything, and none of its keys is forgotten.
+/// What tells no plan (a stop, a fall-back, the commands of a commander without plans) cannot be told from a new one
+/// once it is forgotten, so more of it is kept: kWithoutPlan to twice as many, then the oldest go.
 class Retention {
  public:
   /// So many ended commands keep their last word. Whoever asks for one asks for what it commanded last: after a lost
   /// answer or a restart, a handful.
   static constexpr std::size_t kKept = 1000;
+  /// A stop each ten seconds for a day. One that comes again after so many others stops what is stopped.
+  static constexpr std::size_t kWithoutPlan = 10'000;
 
   /// Takes in that the key was taken.
   void taken(const CommandKey&, std::uint32_t plan);

@@ -98,6 +98,24 @@ TEST(Retention, APlanThatRunsForgetsNothing) {
   EXPECT_EQ(ledger.receive(drive(0, 1), seconds(3)).order, Order::nothing);
 }
 
+// Whoever knows the run may stop the robot as often as he likes, under a new key each time.
+TEST(Retention, WhatTellsNoPlanIsBoundedToo) {
+  constexpr std::size_t kStops = 5 * Retention::kWithoutPlan;
+  Retention retention;
+  std::vector<CommandKey> forgotten;
+  for (std::size_t i = 0; i < kStops; ++i) {
+    const CommandKey key{"s" + std::to_string(i), 1, "stranger", 0};
+    retention.taken(key, 0);
+    retention.ended(key, 0);
+    for (CommandKey& old : retention.take_due()) forgotten.push_back(std::move(old));
+    ASSERT_LE(retention.ended().size(), 2 * Retention::kWithoutPlan);
+    ASSERT_GE(retention.ended().size(), std::min(i + 1, Retention::kWithoutPlan));
+  }
+  EXPECT_EQ(forgotten.size() + retention.ended().size(), kStops);
+  EXPECT_EQ(forgotten.front().activity, "s0");
+  EXPECT_FALSE(retention.forgotten({"new", 1, "stranger", 0}, 0)) << "a new one is not taken for an old one";
+}
+
 TEST(Retention, ALaterEpochBeginsItsPlansAnew) {
   CommandLedger ledger = after_many();
   Request later = drive(0, 1);
