@@ -89,8 +89,8 @@ void FollowerService::tell_excess(const Chunk& chunk) {
                            std::to_string(chunk.bytes.size()) + " bytes, is refused: there is room for " +
                            std::to_string(kJournalCopyBytes >> 20) + " MiB in parts of " +
                            std::to_string(kPartBytes >> 10) + " KiB, as many as were announced (" +
-                           std::to_string(times) + " so far); until another one comes " + lease_->self() +
-                           " cannot take over";
+                           std::to_string(times) +
+                           " so far); until another one comes the standby cannot take over";
   services::log::warning(text);
   events_.write(services::node::make_event(v1::SEVERITY_WARNING, "journal.no_room", text));
 }
