@@ -25,7 +25,7 @@ TEST_P(CutService, IsWaitedForAndTheGoalsAreReached) {
   const Ended ended = run("timeout 280 " ROCI_SOURCE_DIR "/tests/scenario/cut_service.sh " ROCI_BINARY_DIR
                           "/bin " ROCI_SOURCE_DIR "/missions/planetary " +
                           std::string(GetParam().dds) + " " + std::to_string(domain.id()) + " " +
-                          GetParam().service + " 40");
+                          GetParam().service + " 25");
   if (ended.exit_code == 77) GTEST_SKIP() << "this user cannot make network namespaces (ip netns add)";
   auto steps = steps_of(ended.output);
   ASSERT_TRUE(steps["flying"].printed.is_object()) << ended.output;
