@@ -43,50 +43,75 @@ std::string with_details(const std::string& reason, const PlanReply& reply) {
   return reply.reason.empty() ? reason : reason + "\ndetails: " + reply.reason;
 }
 
-std::string names_of_others(const GoalSet& goals, const GoalKey& key) {
-  constexpr std::size_t kNamed = 6;
+std::string names_of(const std::vector<const GoalRecord*>& goals) {
+  constexpr std::size_t kNamed = 7;
   std::string out;
-  std::size_t count = 0;
-  for (const GoalRecord* record : goals.open()) {
-    if (record->request.key == key || ++count > kNamed) continue;
-    out += (out.empty() ? "" : ", ") + record->request.key.id;
+  for (std::size_t i = 0; i < std::min(goals.size(), kNamed); ++i)
+    out += (i == 0 ? "" : ", ") + goals[i]->request.key.id;
+  return goals.size() > kNamed ? out + " and " + std::to_string(goals.size() - kNamed) + " more" : out;
+}
+
+// Why a goal leaves first of those that no proof blames.
+std::string rank_of(const GoalSet& goals, const GoalKey& key) {
+  switch (goals.find(key)->request.importance) {
+    case GoalClass::opportunistic:
+      return "the newest opportunistic goal";
+    case GoalClass::optional:
+      return "the optional goal of the lowest utility";
+    case GoalClass::hard:
+      break;
   }
-  return count > kNamed ? out + " and " + std::to_string(count - kNamed) + " more" : out;
+  return "the newest hard goal";
 }
 
-std::vector<RelaxationStep::Leaving> leaving(const PlanReply& reply, const GoalSet& goals,
-                                             const std::vector<GoalKey>& keys) {
-  std::vector<RelaxationStep::Leaving> out;
-  for (const GoalKey& key : keys) out.push_back({key, reason_to_leave(reply, goals, key)});
-  return out;
+// The goals that the planner was asked for.
+GoalSet asked_for(const GoalSet& goals, const Relaxation& relaxed) {
+  return relaxed.soft_goals_left_out.empty() ? goals : hard_goals(goals);
 }
 
-}  // namespace
-
-// Of a goal that no proof blames nobody knows whether it would fit alone, so nothing is said of that.
-std::string reason_to_leave(const PlanReply& reply, const GoalSet& goals, const GoalKey& key) {
+// The reason, with `besides` at the end of what is said in the words of the mission where the reply blames no goal and
+// speaks of several.
+std::string reason_with(const PlanReply& reply, const GoalSet& asked, const GoalKey& key,
+                        const std::string& besides) {
   if (reply.verdict != Verdict::unsolvable)
     return std::string(to_string(reply.verdict)) + (reply.reason.empty() ? "" : ": " + reply.reason);
   const auto blamed = std::ranges::find(reply.blocking, key, &BlockingGoal::key);
   if (blamed != reply.blocking.end())
     return with_details("out of reach: " + (blamed->reason.empty() ? blamed->timeline : blamed->reason),
                         reply);
-  const std::string others = names_of_others(goals, key);
-  return with_details(others.empty() ? "no plan achieves it" : "no plan achieves it together with " + others,
-                      reply);
+  const auto goals = asked.open();
+  if (goals.size() < 2) return with_details("no plan achieves it", reply);
+  return with_details("no plan achieves all of " + names_of(goals) + besides, reply);
+}
+
+std::vector<RelaxationStep::Leaving> leaving(const PlanReply& reply, const GoalSet& asked,
+                                             const std::vector<GoalKey>& keys) {
+  std::vector<RelaxationStep::Leaving> out;
+  for (const GoalKey& key : keys)
+    out.push_back(
+        {key, reason_with(reply, asked, key, "; this one leaves first, as " + rank_of(asked, key))});
+  return out;
+}
+
+}  // namespace
+
+std::string reason_to_leave(const PlanReply& reply, const GoalSet& goals, const GoalKey& key,
+                            const Relaxation& relaxed) {
+  return reason_with(reply, asked_for(goals, relaxed), key, "");
 }
 
 RelaxationStep relax(const PlanReply& reply, const GoalSet& goals, const MissionModel& mission,
                      const Relaxation& relaxed) {
   using Kind = RelaxationStep::Kind;
+  const GoalSet asked = asked_for(goals, relaxed);
   if (const auto soft = soft_goal_to_give_up(reply, goals, relaxed))
-    return {Kind::give_up_soft, leaving(reply, goals, {*soft}), ""};
+    return {Kind::give_up_soft, leaving(reply, asked, {*soft}), ""};
   const std::vector<GoalKey> blamed = blamed_goals(reply, goals);
   if (!blamed.empty() && relaxed.soft_goals_left_out.empty() && goals.drop_candidate())
     return {Kind::leave_out_soft, {}, with_details("no plan has the hard goals beside it", reply)};
   const auto hard = blamed.empty() ? std::vector{newest_hard(goals)} : blamed;
   const bool spend = keeps_reserves(mission) && relaxed.reserves == problem::Reserves::kept;
-  return {spend ? Kind::spend_reserves : Kind::give_up_hard, leaving(reply, goals, hard), ""};
+  return {spend ? Kind::spend_reserves : Kind::give_up_hard, leaving(reply, asked, hard), ""};
 }
 
 std::optional<GoalKey> soft_goal_to_give_up(const PlanReply& reply, const GoalSet& goals,
