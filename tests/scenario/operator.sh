@@ -5,10 +5,13 @@ set -u
 mission=$2 scenario=$3 dds=$4 domain=$5 out=$6
 export PATH=$1:$PATH
 joins=(--domain "$domain" --dds "$dds")
-mkdir -p "$out"
+export XDG_STATE_HOME=$out/state
+runs=$out/state/rocinante/runs  # where `roci runs` looks
+mkdir -p "$runs"
 roci-launch "$mission" --scenario "$scenario" --dds "$dds" --domain "$domain" --speed 20 --headless --json \
-  --run-folder "$out/run" >"$out/summary" 2>&1 &
+  --run-folder "$runs/20990101T000000Z-flight" >"$out/summary" 2>&1 &
 launcher=$!
+ln -s "$runs/20990101T000000Z-flight" "$out/run"
 listener=
 trap 'kill $listener 2>/dev/null; kill -INT $launcher 2>/dev/null; wait' EXIT
 ask() {
@@ -52,6 +55,17 @@ case $7 in
     wait "${asking[@]}"
     ask second goal add second photo x=60 y=45   # one more planner call
     ask_until 'plan 2,' after plan
+    ask steep-goal goal add steep photo x=190 y=60 --wait
+    mkdir "$runs/20260101T000000Z-old" "$runs/20260102T000000Z-older" "$runs/no-run-of-a-launcher"
+    roci runs --json >"$out/runs"
+    roci runs --prune --keep 1 --json >"$out/pruned"
+    roci runs --prune --keep 0 >"$out/pruned-again"
+    ls "$runs" >"$out/kept"
+    ask open-goal goal add open photo x=60 y=60 --wait &
+    waits=$!
+    ask_until ground/open listed goal list
+    kill -INT $launcher
+    wait $waits
     ;;
   obstacle)
     ask_until ' \* ' older plan

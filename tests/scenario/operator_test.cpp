@@ -1,5 +1,6 @@
-// What an operator asks of a mission while it flies, typed into roci: plan, timelines, ways, and why the plan is as it
-// is. Two flights serve all of it: they are begun, asked, and ended before their time.
+// What an operator asks of a mission while it flies, typed into roci: plan, timelines, ways, why the plan is as it is,
+// how a goal ends, and which runs there are. Two flights serve all of it: they are begun, asked, and ended before their
+// time.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -18,6 +19,7 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 using ::testing::AllOf;
 using ::testing::ContainsRegex;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -172,6 +174,34 @@ TEST_F(Operator, IsWarnedOnceOfANumberThatHasNoValue) {
   EXPECT_THAT(said("after"), HasSubstr("plan 2,"));
   EXPECT_EQ(events("planner.warning"), 1) << said("events");
   EXPECT_THAT(said("events"), HasSubstr("(warmth) has no initial value"));
+}
+
+// Steep ground lies around the place.
+TEST_F(Operator, IsToldThatAGoalWasGivenUp) {
+  EXPECT_EQ(code("steep-goal"), 4) << said("steep-goal.err");
+  EXPECT_THAT(said("steep-goal"), HasSubstr("ground/steep"));
+  EXPECT_THAT(said("steep-goal"), ContainsRegex("dropped.* out of reach: place-steep \\(x=190 y=60\\)"));
+}
+
+TEST_F(Operator, IsToldThatTheMissionEndedBeforeTheGoal) {
+  EXPECT_EQ(code("open-goal"), 5) << said("open-goal.err");
+  EXPECT_THAT(said("open-goal"), HasSubstr("ground/open"));
+  EXPECT_THAT(said("open-goal.err"), HasSubstr("the mission ended before goal open did"));
+}
+
+// Two runs are old, one flies, and one folder is no run.
+TEST_F(Operator, ClearsOldRunsAwayButNoneThatFlies) {
+  const auto names = [](const std::string& file) {
+    std::vector<std::string> out;
+    for (const json& one : parsed(file)) out.push_back(fs::path(one.value("folder", "")).filename());
+    return out;
+  };
+  EXPECT_THAT(names("runs"),
+              ElementsAre("20990101T000000Z-flight", "20260102T000000Z-older", "20260101T000000Z-old"));
+  EXPECT_EQ(parsed("runs")[0].value("result", ""), "running");
+  EXPECT_THAT(names("pruned"), ElementsAre("20260102T000000Z-older", "20260101T000000Z-old"));
+  EXPECT_THAT(said("pruned-again"), HasSubstr("nothing to remove in "));
+  EXPECT_EQ(said("kept"), "20990101T000000Z-flight\nno-run-of-a-launcher\n");
 }
 
 }  // namespace
