@@ -1,14 +1,14 @@
 #!/usr/bin/env bash
 # What an operator types while a mission flies: each answer is a file of OUT, its exit code stands in FILE.code.
-# operator.sh BIN MISSION SCENARIO DDS DOMAIN OUT asked|obstacle
+# operator.sh BIN MISSION SCENARIO DDS DOMAIN OUT SPEED asked|obstacle|ended
 set -u
-mission=$2 scenario=$3 dds=$4 domain=$5 out=$6
+mission=$2 scenario=$3 dds=$4 domain=$5 out=$6 speed=$7
 export PATH=$1:$PATH
 joins=(--domain "$domain" --dds "$dds")
 export XDG_STATE_HOME=$out/state
 runs=$out/state/rocinante/runs  # where `roci runs` looks
 mkdir -p "$runs"
-roci-launch "$mission" --scenario "$scenario" --dds "$dds" --domain "$domain" --speed 20 --headless --json \
+roci-launch "$mission" --scenario "$scenario" --dds "$dds" --domain "$domain" --speed "$speed" --headless --json \
   --run-folder "$runs/20990101T000000Z-flight" >"$out/summary" 2>&1 &
 launcher=$!
 ln -s "$runs/20990101T000000Z-flight" "$out/run"
@@ -17,7 +17,7 @@ trap 'kill $listener 2>/dev/null; kill -INT $launcher 2>/dev/null; wait' EXIT
 ask() {
   local file=$out/$1
   shift
-  timeout 30 roci "$@" "${joins[@]}" >"$file" 2>"$file.err"
+  timeout 60 roci "$@" "${joins[@]}" >"$file" 2>"$file.err"
   echo $? >"$file.code"
 }
 # Asks until the answer holds a text, for half a minute at most.
@@ -31,7 +31,7 @@ ask_until() {
   done
   return 1
 }
-case $7 in
+case $8 in
   asked)
     ask_until planetary status status
     roci events --json "${joins[@]}" >"$out/events" 2>/dev/null &
@@ -61,11 +61,10 @@ case $7 in
     roci runs --prune --keep 1 --json >"$out/pruned"
     roci runs --prune --keep 0 >"$out/pruned-again"
     ls "$runs" >"$out/kept"
-    ask open-goal goal add open photo x=60 y=60 --wait &
-    waits=$!
-    ask_until ground/open listed goal list
-    kill -INT $launcher
-    wait $waits
+    ;;
+  ended)
+    ask_until planetary status status
+    ask open-goal goal add open photo x=60 y=60 --wait
     ;;
   obstacle)
     ask_until ' \* ' older plan
