@@ -1,6 +1,11 @@
-"""Problems for deliveries.pddl: on so many places a tenth as many drivers and trucks, and a fifth as many parcels."""
+#!/usr/bin/env python3
+"""Problems for deliveries.pddl: on so many places a tenth as many drivers and trucks, and a fifth as many parcels:
+
+  deliveries.py PLACES [SEED]      prints one
+"""
 
 import random
+import sys
 
 
 def problem(places, seed):
@@ -25,3 +30,9 @@ def problem(places, seed):
     return (f"(define (problem deliveries) (:domain growth-deliveries)\n  (:objects {' '.join(names)} - place "
             f"{' '.join(drivers)} - driver {' '.join(trucks)} - truck {' '.join(parcels)} - parcel)\n  (:init\n    "
             + "\n    ".join(init) + f")\n  (:goal (and {goal})))\n")
+
+
+if __name__ == "__main__":
+    if len(sys.argv) not in (2, 3):
+        sys.exit(__doc__)
+    sys.stdout.write(problem(int(sys.argv[1]), int(sys.argv[2]) if len(sys.argv) == 3 else 0))
