@@ -1,5 +1,5 @@
-/// How many variables a part of a domain or a goal binds: parameters and those of all quantifiers. Planner and executive
-/// choose an object for each.
+/// How many variables a part of a domain or a goal binds: parameters and those of all quantifiers. Planner and
+/// executive choose an object for each.
 #pragma once
 
 #include <cstddef>

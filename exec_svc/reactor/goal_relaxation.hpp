@@ -67,8 +67,9 @@ std::vector<goals::GoalKey> hard_goals_at_stake(const PlanReply& reply, const go
 std::optional<goals::GoalKey> next_suspect(const goals::GoalSet& goals,
                                            const std::optional<goals::GoalKey>& suspect);
 
-/// Why a goal leaves after such a reply: in the words of the mission, and behind "details: " in those of the planner. Of
-/// a goal that no proof blames it claims nothing alone, but that no plan achieves all goals of the call, by their names.
+/// Why a goal leaves after such a reply: in the words of the mission, and behind "details: " in those of the
+/// planner. Of a goal that no proof blames it claims nothing alone, but that no plan achieves all goals of the call,
+/// by their names.
 std::string reason_to_leave(const PlanReply& reply, const goals::GoalSet& goals, const goals::GoalKey& key,
                             const Relaxation& relaxed);
 

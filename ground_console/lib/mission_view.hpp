@@ -65,8 +65,8 @@ class MissionView {
 
   const v1::MissionStatus* mission() const;  ///< null before the first
   const std::map<std::string, v1::MissionStatus>& missions() const { return missions_; }  ///< by executive
-  /// The mission of the chosen executive, or of all where none was chosen, has an outcome, or the world has told of the end
-  /// of a simulated run.
+  /// The mission of the chosen executive, or of all where none was chosen, has an outcome, or the world has told of
+  /// the end of a simulated run.
   bool ended() const;
   /// Decisions that plans have asked for, by id.
   const std::map<std::string, v1::Decision>& decisions() const { return decisions_; }

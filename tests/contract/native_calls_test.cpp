@@ -1,5 +1,6 @@
-// Requests and replies between our transports and native participants of either vendor: each answered once, two megabytes
-// long, across the kill of a server that has a call in hand, and beside a stranger who has another type on the topic.
+// Requests and replies between our transports and native participants of either vendor: each answered once, two
+// megabytes long, across the kill of a server that has a call in hand, and beside a stranger who has another type on
+// the topic.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -32,8 +33,8 @@ bool may_lose_the_first(const Pairing& pairing) {
 // Pairing: whoever calls writes, whoever serves reads.
 class NativeCalls : public testing::TestWithParam<Pairing> {
  protected:
-  /// Makes the calls from number `first` on, until one is answered. Once both writers have their readers it is the first
-  /// one, but for the pairings of quirk 11.
+  /// Makes the calls from number `first` on, until one is answered. Once both writers have their readers it is the
+  /// first one, but for the pairings of quirk 11.
   static bool begin(Peer& client, Peer& server, int first = 1, int waypoints = 2) {
     if (!client.wait_for("matched 1") || !server.wait_for("matched 1")) return false;
     if (!may_lose_the_first(GetParam())) {

@@ -4,9 +4,9 @@
 # Prints what each step printed as "step<TAB>exit code<TAB>output" and closes with the step launch: the launcher's
 # exit code and summary. The steps kill-… have no output; their code is that of the kill.
 #
-# The speed: each roci joins the run anew, which takes about a second of wall time, and there are twelve of them before the last
-# kill, while the robot is done after some SIMS seconds of mission time. At 1000, the first speed of this script, that was
-# WALL s; at 200 it is five times as many. A kill that finds the mission over fails the test, so that a speed that is too high shows.
+# The speed: each roci joins the run anew, which takes wall time, and ten of them come before the last kill. At 1000, the first
+# speed of this script, the mission was over by then once plans had become shorter, and again at 400; no speed changes what a kill
+# does on the simulated clock. A kill that finds the mission over fails the test, so that too high a speed shows.
 set -uo pipefail
 bin=$1 mission=$2 dds=$3 domain=$4
 folder=$(mktemp -d)

@@ -39,7 +39,7 @@ TEST_P(GroundAndKills, NothingIsLost) {
   };
   for (const char* id : {"more", "bad", "second", "ridge", "soil", "depot"}) EXPECT_EQ(listed(id), 1) << id;
   for (const std::string service : {"exec_svc", "planner_svc", "arm_svc", "pathplan_svc"}) {
-    EXPECT_EQ(steps["kill-" + service].exit_code, 0) << service << " was not there: the mission is over too soon";
+    EXPECT_EQ(steps["kill-" + service].exit_code, 0) << service << " was gone: the mission is over";
     EXPECT_EQ(steps["event-after-" + service].exit_code, 0) << service;
   }
   EXPECT_EQ(steps["status"].printed.value("mission", ""), "planetary");

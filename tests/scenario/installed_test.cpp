@@ -14,8 +14,8 @@ namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-// CMake's own list of what it installed, and what ctest and the field trials write meanwhile, are left out: of the build
-// folder's own entries these alone, and nothing that is built.
+// CMake's own list of what it installed, and what ctest and the field trials write meanwhile, are left out: of the
+// build folder's own entries these alone, and nothing that is built.
 bool is_written_by_others(const fs::path& path) {
   const std::string name = path.lexically_relative(ROCI_BINARY_DIR);
   return name == "install_manifest.txt" || name == "Testing" || name == ".ninja_lock" ||

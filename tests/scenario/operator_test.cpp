@@ -1,6 +1,6 @@
-// What an operator asks of a mission while it flies, typed into roci: plan, timelines, ways, why the plan is as it is,
-// how a goal ends, and which runs there are. Three flights serve all of it: two are begun, asked, and ended before their
-// time; one ends by itself.
+// What an operator asks of a mission while it flies, typed into roci: plan, timelines, ways, why the plan is as it
+// is, how a goal ends, and which runs there are. Three flights serve all of it: two are begun, asked, and ended
+// before their time; one ends by itself.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -1,5 +1,5 @@
-// The Debian package: apt installs what it needs on a Debian that has nothing yet, its unit starts what it brings, and a
-// mission flies from it.
+// The Debian package: apt installs what it needs on a Debian that has nothing yet, its unit starts what it brings,
+// and a mission flies from it.
 #include <gmock/gmock.h>
 #include <unistd.h>
 

@@ -69,10 +69,10 @@ class PlannerTimeout : public ::testing::TestWithParam<const char*> {
   const fs::path folder = fs::temp_directory_path() / ("roci_planner_timeout_" + std::to_string(::getpid()));
 };
 
-// At this speed a second of the wall is half a minute of the mission, and the executive takes a call for lost after two
-// minutes. Three searches are stopped under way: after the first one the optional goal leaves, after the second one the
-// reserves may be used, after the third one the newest hard goal fails, each with the reason. The sample is then planned
-// and picked, and the mission ends by itself.
+// At this speed a second of the wall is half a minute of the mission, and the executive takes a call for lost after
+// two minutes. Three searches are stopped under way: after the first one the optional goal leaves, after the second
+// one the reserves may be used, after the third one the newest hard goal fails, each with the reason. The sample is
+// then planned and picked, and the mission ends by itself.
 TEST_P(PlannerTimeout, OfASearchUnderWayCostsGoalsWithTheirReasonAndNothingElse) {
   const Ended ended =
       run("timeout 100 roci-launch " + (folder / "mission").string() + " --scenario one --dds " + GetParam() +

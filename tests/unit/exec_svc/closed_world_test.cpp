@@ -1,5 +1,5 @@
-// Derived predicates and goals whose parameters and quantifiers range over very much: they cost no stack, and their work
-// ends at a bound.
+// Derived predicates and goals whose parameters and quantifiers range over very much: they cost no stack, and their
+// work ends at a bound.
 #include "exec_svc/problem/closed_world.hpp"
 
 #include <gmock/gmock.h>
