@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "exec_svc/reactor/goal_words.hpp"
+
 namespace roci::exec::reactor {
 
 using goals::GoalClass;
@@ -22,10 +24,10 @@ GoalKey newest_hard(const GoalSet& goals) {
   return out;
 }
 
-/// Open goals that a proof blames, in the order of their arrival.
+/// Open goals that the planner blames, in the order of their arrival: by a proof, or for want of values that the owners
+/// of functions did not find.
 std::vector<GoalKey> blamed_goals(const PlanReply& reply, const GoalSet& goals) {
   std::vector<GoalKey> out;
-  if (reply.verdict != Verdict::unsolvable) return out;
   for (const GoalRecord* record : goals.open()) {
     const GoalKey& key = record->request.key;
     if (std::ranges::find(reply.blocking, key, &BlockingGoal::key) != reply.blocking.end())
@@ -55,23 +57,25 @@ std::string names_of_others(const GoalSet& goals, const GoalKey& key) {
 }
 
 std::vector<RelaxationStep::Leaving> leaving(const PlanReply& reply, const GoalSet& goals,
-                                             const std::vector<GoalKey>& keys) {
+                                             const MissionModel& mission, const std::vector<GoalKey>& keys) {
   std::vector<RelaxationStep::Leaving> out;
-  for (const GoalKey& key : keys) out.push_back({key, reason_to_leave(reply, goals, key)});
+  for (const GoalKey& key : keys) out.push_back({key, reason_to_leave(reply, goals, mission, key)});
   return out;
 }
 
 }  // namespace
 
 // Of a goal that no proof blames nobody knows whether it would fit alone, so nothing is said of that.
-std::string reason_to_leave(const PlanReply& reply, const GoalSet& goals, const GoalKey& key) {
-  if (reply.verdict != Verdict::unsolvable)
-    return std::string(to_string(reply.verdict)) + (reply.reason.empty() ? "" : ": " + reply.reason);
+std::string reason_to_leave(const PlanReply& reply, const GoalSet& goals, const MissionModel& mission,
+                            const GoalKey& key) {
+  const goals::GoalRequest& goal = goals.find(key)->request;
   const auto blamed = std::ranges::find(reply.blocking, key, &BlockingGoal::key);
   if (blamed != reply.blocking.end())
-    return with_details("out of reach: " + (blamed->reason.empty() ? blamed->timeline : blamed->reason),
-                        reply);
+    return with_details(words_of_blamed(reply, *blamed, goal, mission), reply);
   const std::string others = names_of_others(goals, key);
+  if (reply.verdict != Verdict::unsolvable)
+    return words_of_spent_budget(reply, goal, others, mission) + "\ndetails: " + to_string(reply.verdict) +
+           (reply.reason.empty() ? "" : ": " + reply.reason);
   return with_details(others.empty() ? "no plan achieves it" : "no plan achieves it together with " + others,
                       reply);
 }
@@ -80,13 +84,13 @@ RelaxationStep relax(const PlanReply& reply, const GoalSet& goals, const Mission
                      const Relaxation& relaxed) {
   using Kind = RelaxationStep::Kind;
   if (const auto soft = soft_goal_to_give_up(reply, goals, relaxed))
-    return {Kind::give_up_soft, leaving(reply, goals, {*soft}), ""};
+    return {Kind::give_up_soft, leaving(reply, goals, mission, {*soft}), ""};
   const std::vector<GoalKey> blamed = blamed_goals(reply, goals);
   if (!blamed.empty() && relaxed.soft_goals_left_out.empty() && goals.drop_candidate())
     return {Kind::leave_out_soft, {}, with_details("no plan has the hard goals beside it", reply)};
   const auto hard = blamed.empty() ? std::vector{newest_hard(goals)} : blamed;
   const bool spend = keeps_reserves(mission) && relaxed.reserves == problem::Reserves::kept;
-  return {spend ? Kind::spend_reserves : Kind::give_up_hard, leaving(reply, goals, hard), ""};
+  return {spend ? Kind::spend_reserves : Kind::give_up_hard, leaving(reply, goals, mission, hard), ""};
 }
 
 std::optional<GoalKey> soft_goal_to_give_up(const PlanReply& reply, const GoalSet& goals,

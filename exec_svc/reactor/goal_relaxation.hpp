@@ -46,11 +46,11 @@ struct RelaxationStep {
   std::string reason;  ///< with leave_out_soft: of the soft goal that will leave if the others fit without it
 };
 
-/// The next step after a reply that says that the goals do not fit (temporal::speaks_of_goals). What the
-/// planner proves out of reach takes no other goal with it. One goal leaves at a time, unless hard ones alone
-/// are blamed: the others may be within reach once it is gone. A proof that blames hard goals alone may hold
-/// only because of what the soft ones demand (a search leaves out what cannot serve all goals), hence
-/// leave_out_soft.
+/// The next step after a reply that says that the goals do not fit (temporal::speaks_of_goals). What the planner proves
+/// out of reach, or cannot tell for want of a value that an owner did not find, takes no other goal with it. One goal
+/// leaves at a time, unless hard ones alone are blamed: the others may be within reach once it is gone. A proof that
+/// blames hard goals alone may hold only because of what the soft ones demand (a search leaves out what cannot serve all
+/// goals), hence leave_out_soft.
 RelaxationStep relax(const PlanReply& reply, const goals::GoalSet& goals,
                      const mission::MissionModel& mission, const Relaxation& relaxed);
 
@@ -59,7 +59,7 @@ std::optional<goals::GoalKey> soft_goal_to_give_up(const PlanReply& reply, const
                                                    const Relaxation& relaxed);
 
 /// The hard goals of which some have to leave where relax() gives up hard ones:
-/// those that a proof blames, else all that are open.
+/// those that the planner blames, else all that are open.
 std::vector<goals::GoalKey> hard_goals_at_stake(const PlanReply& reply, const goals::GoalSet& goals);
 
 /// The next goal to do without, where the planner refuses a problem as invalid and nobody knows for which of its goals:
@@ -68,7 +68,8 @@ std::optional<goals::GoalKey> next_suspect(const goals::GoalSet& goals,
                                            const std::optional<goals::GoalKey>& suspect);
 
 /// Why a goal leaves after such a reply: in the words of the mission, and behind "details: " in those of the planner.
-std::string reason_to_leave(const PlanReply& reply, const goals::GoalSet& goals, const goals::GoalKey& key);
+std::string reason_to_leave(const PlanReply& reply, const goals::GoalSet& goals,
+                            const mission::MissionModel& mission, const goals::GoalKey& key);
 
 /// The goals as they are, but this one counts as gone.
 goals::GoalSet without(const goals::GoalSet& goals, const goals::GoalKey& key);

@@ -38,7 +38,7 @@ struct PlanRequest {
 struct BlockingGoal {
   goals::GoalKey key;
   std::string timeline;  ///< that nothing brings about, or that runs out; empty: not known
-  std::string reason;
+  std::string reason;    ///< empty: no plan brings it about, and nobody says why
 };
 
 /// How a planner call ended.
@@ -46,7 +46,7 @@ struct PlanReply {
   std::uint64_t call = 0;
   temporal::Verdict verdict = temporal::Verdict::no_reply;
   std::string reason;                  ///< of the verdict, in plain words; may be empty
-  std::vector<BlockingGoal> blocking;  ///< with unsolvable; none: not known, or all goals together
+  std::vector<BlockingGoal> blocking;  ///< with unsolvable, or timeout; none: not known, or all together
   temporal::FlexiblePlan plan;  ///< with solved; of an engine that reads PDDL it names actions, not commands
 };
 

@@ -223,7 +223,8 @@ void PlanningCycle::take_trial(Time now, const PlanReply& reply) {
   if (reply.verdict == Verdict::solved) {
     for (const goals::GoalKey& key : trial.without)
       if (!is_final(state_->goals.find(key)->state))
-        state_->give_up({key}, with_what_it_saves(reason_to_leave(trial.refusal, state_->goals, key)));
+        state_->give_up(
+            {key}, with_what_it_saves(reason_to_leave(trial.refusal, state_->goals, *state_->mission, key)));
     keep_reserves();
   } else {
     give_up_hard(reactor::relax(trial.refusal, state_->goals, *state_->mission, relaxed_));

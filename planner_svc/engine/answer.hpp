@@ -16,7 +16,8 @@ struct BlockingGoal {
   std::string issuer;
   std::string id;
   std::string timeline;  ///< that nothing brings about, or that runs out; empty: not known
-  std::string reason;    ///< in words
+  std::string reason;    ///< in words; empty: no plan brings it about, and nobody says why
+  bool proved = true;    ///< false: an owner found no value that the goal needs, and more effort may find one
   friend bool operator==(const BlockingGoal&, const BlockingGoal&) = default;
 };
 
@@ -40,8 +41,11 @@ struct RecordFile {
 struct Answer {
   temporal::Verdict verdict = temporal::Verdict::crashed;
   std::string reason;  ///< in words, with file, line and column where the input is at fault
-  /// Names, with unsolvable, the goals that are out of reach; none: all together are.
+  /// Names, with unsolvable, the goals that are out of reach; none: all together are. With lacks_values those that
+  /// are, as far as owners know.
   std::vector<BlockingGoal> blocking;
+  /// With timeout: there is no plan unless an owner finds a value that it has not found (FunctionOutcome::unknown).
+  bool lacks_values = false;
   std::optional<temporal::FlexiblePlan> plan;  ///< is there with solved alone
   Statistics statistics;
   std::vector<std::string> warnings;  ///< what of the texts departs from their language, and how it was read

@@ -42,24 +42,25 @@ Against against(const std::string& object, std::span<const FunctionUse> uses) {
 
 }  // namespace
 
-std::string words_against(const std::set<std::string>& named, const std::vector<Object>& objects,
+OwnersWords words_against(const std::set<std::string>& named, const std::vector<Object>& objects,
                           std::span<const FunctionUse> uses) {
   for (const std::string& object : named) {
     const auto [use, proved] = against(object, uses);
     if (use == nullptr) continue;
     const Provenance& said = *use->answer.provenance;
     if (!proved)
-      return "no way to " + described(object, objects) + " is known: " + said.owner +
-             " found none with the effort spent (" + use->call.function + ", model " + said.model_version +
-             "), which proves nothing; ask again, or let it search longer";
+      return {"no way to " + described(object, objects) + " is known: " + said.owner +
+                  " found none with the effort spent (" + use->call.function + ", model " +
+                  said.model_version + "), which proves nothing; ask again, or let it search longer",
+              false};
     const std::string about = object + ": ";
     if (use->answer.reason.starts_with(about))
-      return described(object, objects) + ": " + use->answer.reason.substr(about.size()) + " (says " +
-             said.owner + ", model " + said.model_version + ")";
-    return described(object, objects) + " is unreachable (says " + said.owner + ", " + use->call.function +
-           ", model " + said.model_version + ")";
+      return {described(object, objects) + ": " + use->answer.reason.substr(about.size()) + " (says " +
+              said.owner + ", model " + said.model_version + ")"};
+    return {described(object, objects) + " is unreachable (says " + said.owner + ", " + use->call.function +
+            ", model " + said.model_version + ")"};
   }
-  return "";
+  return {};
 }
 
 }  // namespace roci::planner::engine

@@ -130,7 +130,43 @@ TEST_F(ReactorTest, ASpentBudgetDropsTooAndIsReportedAsWhatItIs) {
     return reactor.goals().open().size() > 1 ? reply(Verdict::timeout) : image_every_goal(call);
   };
   run(1000, robot_and({photo("hard"), photo("soft", GoalClass::optional, 1)}));
-  EXPECT_EQ(reasons["soft"], "timeout");
+  EXPECT_THAT(
+      reasons["soft"],
+      ::testing::MatchesRegex("no plan was found within the planner's budget of [0-9]+ evaluations.*: .+ "
+                              "\\(x 110, y 60\\), together with hard\ndetails: timeout"));
+}
+
+// What an owner of functions did not find is no proof, and yet says which goal stands in the way.
+TEST_F(ReactorTest, AGoalThatStandsOnAnUnknownValueLeavesAndNoOther) {
+  planner = [this](const PlanRequest& call) {
+    if (!testing::asks_for(call, "misty")) return image_every_goal(call);
+    auto out = blocked({"misty"});
+    out.verdict = Verdict::timeout;
+    out.blocking[0].reason = "no way to place-misty is known: pathplan_svc found none";
+    out.reason = "not known: pathplan_svc found no way";
+    return out;
+  };
+  run(1000, robot_and({photo("misty", GoalClass::optional, 9), photo("free", GoalClass::optional, 1),
+                       photo("late", GoalClass::opportunistic)}));
+  EXPECT_EQ(reasons["misty"],
+            "not known: no way to place-misty is known: pathplan_svc found none\ndetails: not known: "
+            "pathplan_svc found no way");
+  EXPECT_EQ(reactor.goals().find({"ground", "free"})->state, GoalState::achieved);
+  EXPECT_EQ(reactor.goals().find({"ground", "late"})->state, GoalState::achieved);
+}
+
+// Where nobody says why, the goal itself is told, not how planners work.
+TEST_F(ReactorTest, AGoalThatNoPlanBringsAboutIsToldAsItWasAskedFor) {
+  planner = [this](const PlanRequest& call) {
+    if (!testing::asks_for(call, "walled")) return image_every_goal(call);
+    auto out = blocked({"walled"});
+    out.blocking[0].reason.clear();
+    return out;
+  };
+  run(1000, robot_and({photo("free"), photo("walled", GoalClass::optional, 1)}));
+  EXPECT_THAT(reasons["walled"],
+              ::testing::MatchesRegex("out of reach: no plan brings it about: .+ \\(x 110, y 60\\)\ndetails: "
+                                      "never reached: \\(sent image-walled\\)"));
 }
 
 TEST_F(ReactorTest, AHardGoalThatThePlannerNamesFailsAndTheRestGoesOn) {

@@ -18,7 +18,7 @@ FunctionUse use(const std::string& from, const std::string& to, FunctionOutcome 
 
 std::string words(const std::vector<FunctionUse>& uses) {
   const std::vector<engine::Object> objects{{"cliff", "location", {{"x", "190.000"}, {"y", "60"}}}};
-  return words_against({"(seen cliff)"}, {}, objects, uses);
+  return words_against({"(seen cliff)"}, {}, objects, uses).text;
 }
 
 TEST(OwnersVerdicts, NameThePlaceTheOwnerAndItsMap) {
