@@ -131,6 +131,10 @@ std::string GoalSet::fault_of(const GoalRequest& request, temporal::Time now) co
     }
   }
   if (!request.utility.finite()) return "utility is not a finite number; give one, e.g. 1";
+  const bool has_window = request.opens.count() != 0 || request.closes.count() != 0;
+  if (has_window && mission_->has_domain() && kind->second.window_fact.empty())
+    return "a " + request.kind + " knows no window; leave 'opens' and 'closes' out, or give goal kind '" +
+           request.kind + "' a 'window' in mission.yaml";
   if (request.closes.count() != 0 && request.closes <= std::max(request.opens, now)) {
     return "the window closes before it opens or has passed; give a later end";
   }

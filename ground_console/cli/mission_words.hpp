@@ -15,6 +15,7 @@ struct GoalKindWords {
   std::string help;
   std::vector<std::pair<std::string, std::string>> arguments;  ///< name and kind: number, text, goal
   std::map<std::string, std::string> example;  ///< a value for each argument, as far as the mission says
+  bool has_window = false;                     ///< false: a goal with --opens or --closes is refused
 };
 
 struct MissionWords {

@@ -146,6 +146,13 @@ TEST_F(GoalSetTest, RejectsWithAReasonThatNamesTheRemedy) {
   goal.kind = "drop_sample";
   goal.arguments["sample"] = "nowhere";
   EXPECT_THAT(fault(goal), HasSubstr("names goal 'nowhere', which is not known"));
+  goal = photo("g");
+  goal.kind = "pick_sample";
+  goal.closes = seconds(9000);
+  EXPECT_THAT(fault(goal), HasSubstr("a pick_sample knows no window; leave 'opens' and 'closes' out, or give "
+                                     "goal kind 'pick_sample' a 'window' in mission.yaml"));
+  std::swap(goal.opens, goal.closes);
+  EXPECT_THAT(fault(goal), HasSubstr("a pick_sample knows no window"));
   EXPECT_TRUE(goals.open().empty());
 }
 
