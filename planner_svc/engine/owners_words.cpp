@@ -1,6 +1,8 @@
 #include "planner_svc/engine/owners_words.hpp"
 
 #include <algorithm>
+#include <map>
+#include <optional>
 
 namespace roci::planner::engine {
 
@@ -21,23 +23,29 @@ std::string described(const std::string& name, const std::vector<Object>& object
 
 // What speaks against the object as the goal of the way.
 struct Against {
-  const FunctionUse* use = nullptr;  // null: some tuple with it has a value, or nobody was asked
-  bool proved = true;                // of every tuple with it its owner knows that there is no value
+  const FunctionUse* use =
+      nullptr;         // null: of every function some tuple with it has a value, or nobody was asked
+  bool proved = true;  // of every tuple with it its owner knows that there is no value
 };
 
+// One function may have no value where another has: an arm that cannot carry a load there, and can go there without.
 Against against(const std::string& object, std::span<const FunctionUse> uses) {
-  Against out;
+  std::map<std::string, std::optional<Against>> by_function;  // nothing: some tuple has a value
   for (const FunctionUse& use : uses) {
     const auto& arguments = use.call.arguments;
     const bool of_others =
         std::ranges::any_of(arguments, [&](const std::string& one) { return one != object; });
     if (arguments.empty() || arguments.back() != object || !of_others) continue;
-    if (use.answer.outcome == FunctionOutcome::value) return {};
+    std::optional<Against>& out = by_function.try_emplace(use.call.function, Against{}).first->second;
+    if (use.answer.outcome == FunctionOutcome::value) out.reset();
+    if (!out) continue;
     const bool proved = use.answer.outcome == FunctionOutcome::unreachable;
-    if (out.use == nullptr || (out.proved && !proved)) out.use = &use;
-    out.proved = out.proved && proved;
+    if (out->use == nullptr || (out->proved && !proved)) out->use = &use;
+    out->proved = out->proved && proved;
   }
-  return out;
+  for (const auto& [function, out] : by_function)
+    if (out) return *out;
+  return {};
 }
 
 }  // namespace

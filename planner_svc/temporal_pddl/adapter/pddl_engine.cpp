@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <functional>
 #include <new>
 #include <string>
 #include <utility>
@@ -100,6 +101,10 @@ Answer plan_for(const Request& request, const Limits& limits, FunctionSource& fu
   out.statistics.from_remaining = result.statistics.from_remaining;
   out.warnings.insert(out.warnings.end(), result.warnings.begin(), result.warnings.end());
   out.blocking = blocking_goals(result.blocked, request, problem, result.functions);
+  // A search that ends for want of one goal's values has reached no other goal, either.
+  const auto stands_on_unknown = [](const BlockingGoal& goal) { return !goal.proved; };
+  if (result.lacks_values && std::ranges::any_of(out.blocking, stands_on_unknown))
+    std::erase_if(out.blocking, std::not_fn(stands_on_unknown));
   std::vector<std::string> names;
   for (const NamedGoal& goal : goals) names.push_back(goal.name);
   if (result.plan) out.plan = export_plan(*result.plan, result.functions, names);

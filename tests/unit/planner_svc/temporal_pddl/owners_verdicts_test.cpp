@@ -31,6 +31,16 @@ TEST(OwnersVerdicts, NameThePlaceTheOwnerAndItsMap) {
       << "there is a way from b";
 }
 
+// An arm that goes there, and cannot carry its load there.
+TEST(OwnersVerdicts, SpeakOfOneFunctionWhereAnotherHasAValue) {
+  FunctionUse carried = use("here", "cliff", FunctionOutcome::unknown);
+  carried.call.function = "carry_time";
+  EXPECT_THAT(
+      words({carried, use("here", "cliff", FunctionOutcome::value)}),
+      HasSubstr("no way to cliff (x=190 y=60) is known: pathplan_svc found none with the effort spent "
+                "(carry_time, model 3)"));
+}
+
 TEST(OwnersVerdicts, DoNotCallUnreachableWhatNobodyProved) {
   for (const bool first : {true, false}) {
     std::vector<FunctionUse> uses{use("here", "cliff", FunctionOutcome::unreachable),
