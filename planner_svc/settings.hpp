@@ -25,6 +25,8 @@ struct Settings {
   /// Ways to search that run side by side, and on how many threads (engine::Request).
   std::vector<std::string> resolvers{};
   std::size_t threads = 1;
+  /// Whether each step of an engine that plans all the time is kept in the run folder (step_records.hpp).
+  bool keep_steps = true;
   /// What the ground may change of it in flight: `network`, `parameters`, of the mission's `ground: {uploads: …}`.
   std::vector<std::string> uploads{};
   /// Mission time that a call takes under the simulated clock.

@@ -14,6 +14,7 @@
 #include "planner_svc/engine/version_exchange.hpp"
 #include "planner_svc/network_orders_service.hpp"
 #include "planner_svc/settings.hpp"
+#include "planner_svc/step_records.hpp"
 #include "roci_idl/goal.h"
 #include "roci_idl/health.h"
 #include "roci_idl/outlook.h"
@@ -32,8 +33,9 @@ class SteppedHost {
  public:
   /// All outlive this. `entry` makes an engine that plans all the time. Throws what it throws.
   /// `networks`: where what the ground changes of the engine's model is kept; empty: nothing is taken of it.
+  /// `steps`: where its steps are kept; empty: nowhere.
   SteppedHost(services::Node& node, const Settings& settings, const engine::TableEntry& entry,
-              const std::filesystem::path& networks);
+              const std::filesystem::path& networks, const std::filesystem::path& steps);
   SteppedHost(const SteppedHost&) = delete;
   SteppedHost& operator=(const SteppedHost&) = delete;
 
@@ -73,6 +75,8 @@ class SteppedHost {
                          temporal::FlexiblePlan& next) const;
   std::shared_ptr<engine::SteppedEngine> make_engine();
   void make_anew();
+  void begin_record();
+  void record(const engine::StepOutcome& outcome);
   void tell_account(const engine::StepOutput& output);
   void tell_outlook(temporal::Time now, const engine::StepOutput& output);
   void tell_blocking(std::vector<engine::BlockingGoal> blocking);
@@ -83,6 +87,7 @@ class SteppedHost {
   NetworkOrders orders_;
   engine::Setup setup_;
   std::shared_ptr<engine::SteppedEngine> engine_;
+  StepRecords records_;
   std::unique_ptr<engine::Checker> checker_;
   services::Publisher<v1::PlanDelta> deltas_;
   services::Publisher<v1::DownlinkSchedule> schedules_;

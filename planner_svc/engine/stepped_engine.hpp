@@ -156,6 +156,9 @@ class SteppedEngine {
   /// it was made. Runs beside the event loop, one step at a time, and should end within some hundred
   /// milliseconds. What it throws is told, and the engine is made anew.
   virtual StepOutput step(const StepInputs& inputs) = 0;
+  /// Returns the model with which it plans, whole and in the engine's own binary form, as in ModelChange; empty: it has
+  /// none.
+  virtual std::string packed_model() const { return {}; }
 };
 
 }  // namespace roci::planner::engine

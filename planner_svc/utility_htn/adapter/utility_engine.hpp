@@ -27,6 +27,7 @@ class UtilityEngine final : public engine::SteppedEngine {
   ~UtilityEngine() override;
 
   engine::StepOutput step(const engine::StepInputs& inputs) override;
+  std::string packed_model() const override;
   /// Replaces a parameter's value by what was measured or found (R116). Returns why not, if it cannot.
   std::string learn(const std::string& parameter, double value);
 
