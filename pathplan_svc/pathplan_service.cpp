@@ -178,6 +178,7 @@ class PathplanService : public services::Service {
       hazards.push_back({{"found_by", one.finder},
                          {"id", one.id},
                          {"kind", one.kind == ObstacleKind::soil ? "soil" : "rock"},
+                         {"found_s", temporal::to_seconds(one.found)},
                          {"x_m", one.disc.centre.x},
                          {"y_m", one.disc.centre.y},
                          {"radius_m", one.disc.radius}});
