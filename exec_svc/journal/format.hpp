@@ -16,7 +16,7 @@ inline constexpr int kFormat = 1;
 /// The version of inputs and snapshots, which the journal states as its number `format`. It rises when
 /// reactor/message_fields.hpp or the reactor's snapshot change. Those of another version are never read: the
 /// executive keeps goals and plan numbers and plans anew, roci-replay refuses.
-inline constexpr std::int64_t kInputFormat = 14;
+inline constexpr std::int64_t kInputFormat = 15;
 
 /// What a journal of a version states besides in its second place, SQLite's application_id, so that one flipped byte is
 /// not taken for a newer version.

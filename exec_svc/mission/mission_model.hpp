@@ -36,6 +36,13 @@ struct StateModel {
   std::vector<std::string> facts;
 };
 
+/// What a component counts as when services are gone that it cannot do without.
+struct LossModel {
+  std::vector<std::string> without;  ///< the services; one of them is enough
+  temporal::Duration after{0};       ///< for which a service has been away, from its loss on
+  temporal::State as;                ///< one of the component's inactive states
+};
+
 /// A subsystem; planning starts only when it is in an inactive state, reached by its fallback command (R43,
 /// R44).
 struct Component {
@@ -45,6 +52,7 @@ struct Component {
   std::string owner;
   std::string fallback;
   std::vector<StateModel> states;
+  std::optional<LossModel> lost{};  ///< none: its services are waited for, however long they are away
 };
 
 /// One timeline per object: `prefix` + the object's name. Its states persist and are all inactive.

@@ -133,10 +133,10 @@ void Safing::confirm(temporal::Time now) {
   if (lacks.empty()) {
     awaited_ = false;
     const bool goes_on = std::exchange(unheard_, false);
-    const char* next = goes_on ? "is heard again, and goes on: " : "made safe, waiting for the ground: ";
+    const char* next = goes_on ? "is seen to be at rest, and goes on: " : "made safe, waiting for the ground: ";
     state_->report(goes_on ? Severity::warning : Severity::error, "robot.safe", next + reason_);
     if (!goes_on || state_->goals.open().empty()) return;
-    state_->want_plan("the robot is heard again and safe");
+    state_->want_plan("the robot is seen to be safe");
     state_->wake_at(now);
     return;
   }

@@ -43,6 +43,8 @@ class Safing {
   bool fallbacks_sent() const { return sent_; }
   /// No owner has said anything to the fall-backs that were sent last, or none was sent.
   bool unanswered() const;
+  /// Nobody answers the fall-back of this component any more: what it needs is gone for good.
+  void forget(const std::string& component) { fallbacks_.erase(component); }
   /// Those that were sent may not have been heard.
   void expect_fallbacks_again() { sent_ = false; }
 
