@@ -99,6 +99,17 @@ TEST_F(LostComponentsTest, AnyOfItsServicesIsEnoughAndWhatItStillTellsIsNotBelie
   EXPECT_EQ(std::ranges::count(trace, "component.lost"), 2) << "another loss counts anew";
 }
 
+TEST_F(LostComponentsTest, ARobotAtRestMakesNoPlanThatCountsOnWhatCannotBeHeard) {
+  run(5, robot_and({}));
+  run(6, lost("camera_computer"));
+  ReactorInputs asked;
+  asked.goals = {photo("a")};
+  run(500, asked);
+  EXPECT_EQ(calls(), 0);
+  run(560, {});
+  EXPECT_EQ(calls(), 1);
+}
+
 TEST_F(LostComponentsTest, TheTimeRunsOnOverARestartOfTheExecutive) {
   die_at_work();
   const std::string kept = reactor.snapshot();
