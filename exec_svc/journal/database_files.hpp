@@ -1,15 +1,15 @@
-/// The files that an SQLite database consists of, and the disk below them.
+// These are the files that an SQLite database consists of, and the disk below them.
 #pragma once
 
 #include <filesystem>
 
 namespace roci::exec::journal {
 
-/// The database's own file and those of its write-ahead log, as SQLite names them.
+/// Lists the suffixes of the database's own file and of its write-ahead log, as SQLite names them.
 inline constexpr const char* kDatabaseSuffixes[] = {"", "-wal", "-shm"};
 
 void remove_database(const std::filesystem::path& file);
-/// Its write-ahead log alone.
+/// Removes the files of its write-ahead log alone.
 void remove_database_logs(const std::filesystem::path& file);
 
 /// Waits until a file, or the names in a folder, are on the disk. Throws DiskError.

@@ -1,4 +1,4 @@
-/// How much the executive may do without the ground: the level of autonomy, what is held, what is approved.
+// The authority of the executive is what it may do without the ground.
 #pragma once
 
 #include <set>
@@ -9,6 +9,7 @@
 
 namespace roci::exec::orders {
 
+/// Holds the level of autonomy, and what the ground has held and approved.
 class Authority {
  public:
   explicit Authority(AutonomyLevel level) : level_(level) {}
@@ -16,17 +17,17 @@ class Authority {
   AutonomyLevel level() const { return level_; }
   void set_level(AutonomyLevel level) { level_ = level; }
 
-  /// Nothing new starts, and nothing is replanned.
+  /// Returns whether all is held: nothing new starts, and nothing is replanned.
   bool held() const { return held_; }
   void hold_all(bool hold) { held_ = hold; }
   void hold(const std::string& activity) { held_activities_.insert(activity); }
-  /// False: it was not held.
+  /// Returns false if the activity was not held.
   bool release(const std::string& activity) { return held_activities_.erase(activity) > 0; }
   void approve(const std::string& activity) { approved_.insert(activity); }
 
-  /// Whether a plan may take the place of one that runs or broke.
+  /// Returns whether a plan may replace one that runs or broke.
   bool may_replan() const { return level_ == AutonomyLevel::e4 && !held_; }
-  /// What this comes to for the activities of a plan.
+  /// Returns what this means for the activities of a plan.
   executive::Permissions permissions() const;
 
   template <class Archive, class Self>

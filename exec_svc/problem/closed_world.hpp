@@ -1,6 +1,6 @@
-/// What holds at the beginning of a PDDL problem: its facts and numbers, everything else is false (closed world), and
-/// what the domain derives from them (PDDL 2.2, Edelkamp and Hoffmann 2004, section 2.2: the smallest fixpoint, layer
-/// by layer).
+// The closed world is what holds at the beginning of a PDDL problem: its facts and numbers (everything else is
+// false), and what the domain derives from them (PDDL 2.2, Edelkamp and Hoffmann 2004, section 2.2: the smallest
+// fixpoint, layer by layer).
 #pragma once
 
 #include <map>
@@ -13,12 +13,14 @@
 
 namespace roci::exec::problem {
 
+/// Judges conditions on the initial state of a PDDL problem, derived predicates included.
 class ClosedWorld {
  public:
-  /// Derives all there is to derive. Both outlive this.
+  /// Derives everything that the domain's rules derive. Both arguments must outlive this object.
   ClosedWorld(const pddl::Domain& domain, const pddl::Problem& problem);
 
-  /// Whether a condition without free variables holds now; unknown where a number decides that has no value.
+  /// Returns whether a condition without free variables holds; unknown where it depends on a number without
+  /// value.
   temporal::Truth truth_of(const pddl::Condition& condition) const;
 
  private:

@@ -10,11 +10,11 @@
 
 namespace roci::exec::standby {
 
-/// Is one message of the journal's copy.
+/// Holds one message of the journal's copy.
 struct Chunk {
-  std::uint64_t leader = 0;    ///< epoch of who sends it
-  journal::Position after;     ///< a batch: of the journal that it fits
-  journal::Position at;        ///< is where the journal stands with it
+  std::uint64_t leader = 0;    ///< epoch of the sender
+  journal::Position after;     ///< if a batch: position of the journal that it fits
+  journal::Position at;        ///< position of the journal with it
   std::uint32_t part = 0;      ///< numbers this part of a whole journal, from 0
   std::uint32_t parts = 0;     ///< counts the parts of a whole journal; 0: a batch
   std::uint32_t checksum = 0;  ///< covers all other members

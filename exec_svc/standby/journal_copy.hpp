@@ -32,7 +32,7 @@ class JournalCopy {
   /// Takes a chunk; `epoch` is the latest that the follower knows of.
   Result take(const Chunk& chunk, std::uint64_t epoch);
 
-  /// Returns how far the copy has come. It is kOwnPast after a batch that does not fit, though its position
+  /// Returns how far the copy has come. It is kForkedHistory after a batch that does not fit, though its position
   /// does: the whole journal is wanted then.
   const journal::Position& has() const { return has_; }
   const TransferProgress& arrival() const { return arrival_; }

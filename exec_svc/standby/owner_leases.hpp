@@ -11,41 +11,43 @@
 
 namespace roci::exec::standby {
 
-using Moment = std::chrono::microseconds;  ///< counts on a clock that never jumps, of this member alone
+using Moment = std::chrono::microseconds;  ///< counts on this member's own steady clock
 
+/// Names the two executives of a pair.
 enum class Member { first, second };
 
-/// Is what an owner says of its lease (services/owner/commander_leases.hpp).
+/// Holds what an owner says of its lease (services/owner/commander_leases.hpp).
 struct OwnerWord {
   std::string owner;
   std::optional<Member> holder;    ///< nothing: nobody
-  std::uint64_t epoch = 0;         ///< in which it holds the lease
-  std::uint64_t newest_epoch = 0;  ///< in which the pair has commanded there
-  Moment echo{0};                  ///< the newest time that the holder said, on the holder's clock
+  std::uint64_t epoch = 0;         ///< epoch in which the holder holds the lease
+  std::uint64_t newest_epoch = 0;  ///< newest epoch in which the pair has commanded there
+  Moment echo{0};                  ///< newest time that the holder sent, on the holder's clock
   Moment term{0};                  ///< the lease lasts so long from then on at least
   bool operator==(const OwnerWord&) const = default;
 };
 
-/// Is what a member says to all owners.
+/// Holds what a member says to all owners.
 struct OwnerRequest {
   Member member = Member::first;
   std::uint64_t epoch = 0;
   bool wanted = false;
-  bool leads = false;  ///< in that epoch; false: it would
+  bool leads = false;  ///< it leads in that epoch; false: it would
   Moment term{0};
   Moment said{0};
   bool operator==(const OwnerRequest&) const = default;
 };
 
-/// Holds all leases or is to command nobody. Two members that have a part each would wait for each other for good, so
-/// one that has had a part for a term gives it back and asks for nothing for some terms: the first member for two,
-/// the second for three. Their times to ask then drift against each other, and in the end one asks alone.
+/// Tracks the owners' leases: a member commands only while it holds all of them. Two members that hold a part each
+/// would wait for each other for ever, so one that has held a part for a term gives it back and asks for nothing for
+/// some terms: the first member for two, the second for three. Their times to ask thus drift apart, and in the end
+/// one asks alone.
 class OwnerLeases {
  public:
   /// `patience` is how long a part is held.
   OwnerLeases(Member self, std::set<std::string> owners, Moment patience);
 
-  /// From now on these owners are to be led.
+  /// Sets the owners whose leases are needed from now on.
   void require(std::set<std::string> owners) { owners_ = std::move(owners); }
 
   void hear(const OwnerWord& word, Moment now);
