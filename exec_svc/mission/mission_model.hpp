@@ -162,8 +162,7 @@ struct ReactorSettings {
   std::uint32_t call_retries = 5;  ///< bounds the planner calls that fail for want of a service
   /// Bounds the failed commands of one component in a row; then their goals are given up.
   std::uint32_t failure_limit = 5;
-  temporal::Duration failure_pause =
-      temporal::seconds(30);  ///< pause after the second failure; doubles with each
+  temporal::Duration failure_pause = temporal::seconds(30);  ///< after the second failure; doubles with each
   temporal::Duration failure_pause_max = temporal::seconds(600);  ///< bounds that pause
   /// Bounds the planner calls that find the fewest hard goals to give up when not even those all fit; 0: the
   /// newest goes.

@@ -16,8 +16,7 @@ namespace roci::exec::reactor {
 /// Says what was already relaxed in the planner call that was replied to.
 struct Relaxation {
   std::string soft_goals_left_out;  ///< why soft goals were left out; empty: they were not
-  problem::Reserves reserves =
-      problem::Reserves::kept;  ///< spent for hard goals, until one fails or another comes
+  problem::Reserves reserves = problem::Reserves::kept;  ///< spent for hard goals, until one fails or comes
 
   /// Names a goal that the call was made without, since the planner refuses the problem with all of them.
   std::optional<goals::GoalKey> suspect;
