@@ -1,5 +1,5 @@
-// Typed publishing and subscribing on a Node. T is a generated struct of idl/; node/typed_endpoints.cpp lists
-// the types.
+// This file has typed publishing and subscribing on a Node. T is a generated struct of idl/;
+// node/typed_endpoints.cpp lists the types.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,8 @@ class Publisher {
   /// Fills in the header of clocked types. Returns false if the transport refused the sample (see
   /// Writer::write), or more than micro_step_limit() samples of the instance were written in one micro-step.
   bool write(T value) const { return node::TypedEndpoints<T>::write(*stream_, std::move(value)); }
-  /// The instance has its last word: it goes once there are newer such ones (TopicWriter); nobody is told.
+  /// Finishes the instance, which is forgotten silently once there are enough newer finished ones
+  /// (TopicWriter).
   bool dispose(const T& value) const { return node::TypedEndpoints<T>::dispose(*stream_, value); }
   /// Returns how many were written so far: for clocked types the `seq` of the newest one.
   std::uint64_t written() const { return node::written(*stream_); }

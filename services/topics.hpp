@@ -24,6 +24,7 @@
 
 namespace roci::services {
 
+/// Describes a topic of samples of type T.
 template <class T>
 struct Topic {
   const char* name;

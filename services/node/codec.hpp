@@ -1,4 +1,5 @@
-// The codec of a generated type. Includes Fast CDR: for the few files that instantiate templates.
+// This is the codec of a generated type. It includes Fast CDR: only the few files that instantiate templates
+// include it.
 #pragma once
 
 #include <concepts>
@@ -17,14 +18,14 @@ concept HasHeader = requires(T value) {
   { value.header() } -> std::same_as<v1::SampleHeader&>;
 };
 
-/// Types without a header that name their run.
+/// Holds for types that name their run themselves.
 template <class T>
 concept OfRun = requires(T value, std::string run) {
   { std::as_const(value).run() } -> std::same_as<const std::string&>;
   value.run(run);
 };
 
-/// The service that a sample says it is from.
+/// Returns the service that a sample says it is from.
 template <class T>
 const std::string& sender_as(const void* value) {
   const T& sample = *static_cast<const T*>(value);
@@ -46,7 +47,8 @@ const std::string& sender_as(const void* value) {
   }
 }
 
-/// The service that a command or a request is for; empty: everyone who reads the topic.
+/// Returns the service that a command or a request is for, or an empty text if it is for everyone who reads
+/// the topic.
 template <class T>
 std::string addressee_as(const void* value) {
   const T& sample = *static_cast<const T*>(value);

@@ -1,6 +1,4 @@
-// The samples that reached no handler because of what they are, or because there was no room for them: counted by topic
-// and reason, told in the log and by the event sample.refused,
-// the first time and each time that the count has grown tenfold.
+// Refusals count the samples that reached no handler because of what they are, or because there was no room for them.
 #pragma once
 
 #include <cstdint>
@@ -18,37 +16,40 @@
 
 namespace roci::services::node {
 
+/// Says why a sample reached no handler.
 enum class Refusal {
-  malformed,     ///< It does not decode, or says what no sample of its type can say.
-  too_large,     ///< It is larger than its topic allows (topics.hpp).
-  queue_full,    ///< The loop has not yet taken as many as may wait (bounds/limits.hpp).
-  no_room,       ///< The table that it would have entered is full.
-  another_name,  ///< In a secure run: it names a sender whose certificate its writer has not.
+  malformed,     ///< it does not decode, or says what no sample of its type can say
+  too_large,     ///< it is larger than its topic allows (topics.hpp)
+  queue_full,    ///< as many wait for the loop as may wait (bounds/limits.hpp)
+  no_room,       ///< the table that it would have entered is full
+  another_name,  ///< in a secure run: it names a sender whose certificate its writer lacks
 };
 
-/// "malformed", "too large", …
+/// Returns "malformed", "too large", …
 const char* to_string(Refusal);
 
+/// Counts refusals by topic and reason, and reports them in the log and by the event sample.refused, the
+/// first time and each time that the count has grown tenfold.
 class Refusals {
  public:
   using Lookup = std::function<std::optional<transport::Participant>(const transport::Guid&)>;
 
-  /// `lookup` names participants. `prepare` opens the topic of events, `tell` writes one `tell_after_s` of wall time
-  /// later; both are called by turn() alone.
+  /// Names participants by `lookup`. turn() alone calls `prepare`, which opens the topic of events, and `tell`,
+  /// which writes one `tell_after_s` of wall time later.
   Refusals(std::string node, Lookup lookup, std::function<void()> prepare,
            std::function<void(const v1::Event&)> tell, double tell_after_s);
 
   /// Counts a sample of the writer; any thread may call it.
   void note(const std::string& topic, Refusal, const transport::Guid& writer);
-  /// The same where it is no longer known who wrote it.
+  /// Does the same where the writer is no longer known.
   void note(const std::string& topic, Refusal why) { note(topic, why, {}); }
   std::uint64_t count(const std::string& topic, Refusal) const;
 
-  /// Is called in each turn of the loop: tells what is new.
+  /// Reports what is new; it is called in each turn of the loop.
   void turn(clock::WallTime now);
 
-  /// Live, the event is written so much wall time after the log's line: by then who reads events is found. Under the
-  /// simulated clock who is found later hears it, too.
+  /// Delays the event, live, by so much wall time after the log's line: by then readers of events are found. Under
+  /// the simulated clock readers that are found later hear it, too.
   static constexpr double kTellAfterS = 1.5;
 
  private:

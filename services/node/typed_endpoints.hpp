@@ -1,4 +1,5 @@
-// A node's topics with their types. T is a generated struct of idl/; typed_endpoints.cpp lists the types.
+// These are a node's topics with their types. T is a generated struct of idl/; typed_endpoints.cpp lists the
+// types.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +14,8 @@ namespace roci::services::node {
 class NodeImpl;
 class TopicWriter;
 
-/// Defined and instantiated in typed_endpoints.cpp, so that users of this header compile no serialization.
+/// Translates between values of T and a node's topics. It is defined and instantiated in typed_endpoints.cpp,
+/// so that users of this header compile no serialization.
 template <class T>
 struct TypedEndpoints {
   static TopicWriter& advertise(NodeImpl&, const Topic<T>&);
@@ -24,7 +26,7 @@ struct TypedEndpoints {
 
 int matched_readers(const TopicWriter&);
 
-/// How many samples the stream has written.
+/// Returns how many samples the stream has written.
 std::uint64_t written(const TopicWriter&);
 
 template <class T>

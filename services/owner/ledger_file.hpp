@@ -9,8 +9,8 @@
 
 namespace roci::services::owner {
 
-/// Holds the file open. What append() has returned from survives the death of the process, though not the loss
-/// of power.
+/// Holds the file open. An entry survives the death of the process once append() has returned, though not the
+/// loss of power.
 class LedgerFile {
  public:
   /// Opens or makes the file. Throws std::system_error if that is impossible.

@@ -1,4 +1,4 @@
-// The retention of ended commands: an owner that runs for years keeps the last words of the newest ones and can tell an
+// Retention of ended commands lets an owner run for years: it keeps the last words of the newest ones and can tell an
 // older key from one that it never heard.
 #pragma once
 
@@ -13,21 +13,21 @@
 
 namespace roci::services::owner {
 
-/// Orders the commands of one commander: by its epoch when it first sent them, and by the plan that they are of.
-/// Neither ever falls for what a commander sends for the first time,
-/// so what is at or before a mark that was passed is old.
+/// Orders the commands of one commander by its epoch when it first sent them, and by their plan. Neither ever
+/// falls for what a commander sends for the first time, so what is at or before a mark that was passed is old.
 struct IssueMark {
   std::uint64_t epoch = 0;
   std::uint32_t plan = 0;
   auto operator<=>(const IssueMark&) const = default;
 };
 
-/// Says which ended keys may be forgotten. Guarantees: a key that was forgotten is recognised for good by its mark, so
-/// it is never carried out again; the newest kKept ended keys are not forgotten, nor any of a commander's newest plan.
-/// A commander that tells neither epochs nor plans has one mark for everything, and none of its keys is forgotten.
+/// Says which ended keys may be forgotten. It guarantees that a key that was forgotten is recognised for good by its
+/// mark, so it is never carried out again; the newest kKept ended keys are not forgotten, nor any of a commander's
+/// newest plan. A commander that tells neither epochs nor plans has one mark for everything, and none of its keys is
+/// forgotten.
 class Retention {
  public:
-  /// So many ended commands keep their last word. Whoever asks for one asks for what it commanded last: after a lost
+  /// Counts the ended commands that keep their last word. Commanders ask for what they commanded last: after a lost
   /// answer or a restart, a handful.
   static constexpr std::size_t kKept = 1000;
 
@@ -56,7 +56,7 @@ class Retention {
  private:
   std::map<std::string, IssueMark> newest_, forgotten_;  // by commander
   std::vector<Ended> ended_;                             // the oldest first
-  std::size_t look_again_at_ = 2 * kKept;  // so many, so that nobody looks through them each time
+  std::size_t look_again_at_ = 2 * kKept;                // bounds how often they are searched
 };
 
 }  // namespace roci::services::owner

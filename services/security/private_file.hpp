@@ -1,4 +1,4 @@
-// Files and folders that their owner alone may read.
+// These are files and folders that their owner alone may read.
 #pragma once
 
 #include <filesystem>

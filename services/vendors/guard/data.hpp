@@ -1,4 +1,4 @@
-// DATA and DATA_FRAG: samples, and those of discovery in particular.
+// This file examines DATA and DATA_FRAG: samples, and those of discovery in particular.
 #pragma once
 
 #include "services/vendors/guard/submessages.hpp"

@@ -1,4 +1,4 @@
-// Parameter lists of RTPS (2.3, 9.4.2.11): inline QoS, and the samples of discovery.
+// This file examines parameter lists of RTPS (2.3, 9.4.2.11): inline QoS, and the samples of discovery.
 #pragma once
 
 #include <array>
@@ -11,15 +11,18 @@ namespace roci::services::vendors::guard {
 
 using GuidPrefix = std::array<std::uint8_t, 12>;
 
-/// Whether `sender` may speak for the participant whose prefix begins `other` (of 12 bytes at least): itself, or with
-/// Cyclone DDS another one of its process, whose prefixes share their first four bytes. Of ours these name the socket.
+/// Returns whether `sender` may speak for the participant whose prefix begins `other` (of 12 bytes at least): itself
+/// or, with Cyclone DDS, another one of its process. Prefixes of one process share their first four bytes, which in
+/// ours name the socket.
 bool may_speak_for(const GuidPrefix& sender, std::span<const std::uint8_t> other);
 
+/// Says where a parameter list stands.
 enum class ListKind { inline_qos, discovery };
 
+/// Says what became of a parameter list, and how long it is.
 struct ListVerdict {
   Verdict verdict = Verdict::pass;
-  std::size_t size = 0;  ///< Of the list with its sentinel, in bytes; 0 unless it passes.
+  std::size_t size = 0;  ///< bytes of the list with its sentinel; 0 unless it passes
 };
 
 /// Judges the list at the beginning of `list`: lengths, and the inner lengths of the parameters in which parsers have

@@ -1,4 +1,4 @@
-// What the guard says of a datagram, and what it counts.
+// A verdict is what the guard says of a datagram, and what it counts.
 #pragma once
 
 #include <array>
@@ -8,7 +8,7 @@
 
 namespace roci::services::vendors::guard {
 
-/// Everything but `pass` means that the vendor never sees the datagram.
+/// Says what becomes of a datagram: the vendor sees it only with `pass`.
 enum class Verdict : std::uint8_t {
   pass,
   stranger,  ///< It comes from an address that is neither a configured peer's nor this host's own.
@@ -40,7 +40,7 @@ inline constexpr std::array<std::string_view, 13> kVerdictNames{"pass",
                                                                 "plain"};
 inline constexpr std::size_t kVerdicts = kVerdictNames.size();
 
-/// The largest sample that is taken in, in bytes: a plan of 8,000 activities has about 4 MiB.
+/// Bounds a sample that is taken in, in bytes: a plan of 8,000 activities has about 4 MiB.
 inline constexpr std::uint32_t kMaxSampleBytes = 16u * 1024 * 1024;
 
 }  // namespace roci::services::vendors::guard
