@@ -1,4 +1,4 @@
-// Steps an engine that plans all the time, and sends the versions of its plan.
+// The stepped host steps an engine that plans all the time, and sends the versions of its plan.
 #pragma once
 
 #include <cstdint>
@@ -25,13 +25,14 @@
 
 namespace roci::planner {
 
-/// What is heard within one turn of the loop is one step. Under the simulated clock steps have their place in
-/// mission time and take none of it. A version that the engine's checker refuses is told (event
-/// "planner.defect") and never sent.
+/// Steps the engine once for all that is heard within one turn of the loop. Under the simulated clock steps
+/// have their place in mission time and take none of it. A version that the engine's checker refuses is
+/// reported (event "planner.defect") and never sent.
 class SteppedHost {
  public:
-  /// All outlive this. `entry` makes an engine that plans all the time. Throws what it throws.
-  /// `networks`: where what the ground changes of the engine's model is kept; empty: nothing is taken of it.
+  /// Hosts the engine that `entry` makes, which plans all the time; throws what that throws. All arguments
+  /// must outlive this object. `networks` is the folder that keeps what the ground changes of the engine's
+  /// model; if it is empty, no change is taken.
   SteppedHost(services::Node& node, const Settings& settings, const engine::TableEntry& entry,
               const std::filesystem::path& networks);
   SteppedHost(const SteppedHost&) = delete;
@@ -51,7 +52,7 @@ class SteppedHost {
   };
 
   void subscribe_all();
-  /// Whether a table may take in what it knows by this name, or not yet.
+  /// Returns whether a table has room for this name, or knows it already.
   template <class Table>
   bool has_room(const Table& table, const typename Table::key_type& name, std::size_t room, const char* what);
   bool is_ours(const v1::SampleHeader& header) const;

@@ -1,4 +1,4 @@
-// One call, from the request to an answer that may be sent.
+// This file takes one call from the request to an answer that may be sent.
 #pragma once
 
 #include <string>
@@ -14,7 +14,8 @@ namespace roci::planner::engine {
 Answer answer_checked(const Table& table, const Request& request, const Limits& limits,
                       FunctionSource& functions);
 
-/// "refused by its checker: …; …" of faults() or of what it throws; empty if the plan may be sent.
+/// Returns "refused by its checker: …; …" with faults() or with what it throws, or an empty text if the plan
+/// may be sent.
 std::string refusal_of(const Checker& checker, const CheckedPlan& checked);
 
 }  // namespace roci::planner::engine

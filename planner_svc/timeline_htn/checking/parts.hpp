@@ -5,7 +5,7 @@
 
 namespace roci::planner::timeline_htn::checking {
 
-/// Is a way in which an activity is a behaviour's.
+/// Describes a way in which an activity carries out a behaviour.
 struct Decomposition {
   Index behaviour = 0;
   Binding binding;
@@ -13,7 +13,7 @@ struct Decomposition {
   std::vector<Index> part_of;
 };
 
-/// Is what an observer sees of a state.
+/// Holds what an observer sees of a state.
 struct Seen {
   std::string timeline;
   temporal::Value value;

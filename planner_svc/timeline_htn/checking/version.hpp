@@ -23,13 +23,13 @@ using Schedule = std::vector<Duration>;  ///< the time of each point
 using Binding = std::vector<Index>;
 inline constexpr Index kNone = ~Index{0};
 
-/// Is a value of a timeline.
+/// Holds a value of a timeline.
 struct Value {
   GroundState state;
   TimePoint start = 0, end = 0;
 };
 
-/// Is an activity: of a state, or of a behaviour that achieves none.
+/// Holds an activity: of a state, or of a behaviour that achieves none.
 struct Part {
   const temporal::PlanActivity* activity = nullptr;
   std::optional<GroundState> state;
@@ -44,6 +44,7 @@ struct Part {
   TimePoint end() const { return activity->end_point; }
 };
 
+/// Holds a plan taken apart, with its network.
 struct Version {
   const model::Model& model;
   const temporal::FlexiblePlan& plan;

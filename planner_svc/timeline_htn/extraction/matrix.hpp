@@ -9,11 +9,13 @@
 
 namespace roci::planner::timeline_htn::extraction {
 
+/// Describes a time point at which at least one timeline changes.
 struct Transition {
   std::vector<temporal::TimePoint> points;  ///< that the network holds together
   temporal::Window window;                  ///< from the plan's origin
 };
 
+/// Holds a plan as a matrix of values (R143).
 struct Matrix {
   std::vector<std::string> timelines;
   std::vector<Transition> transitions;  ///< in the order of their earliest times; the first is the origin

@@ -12,6 +12,7 @@ namespace roci::planner::timeline_htn::model {
 /// Says which list of the model a fault lies in.
 enum class Part { model, component, state, behaviour, problem, prediction, goal };
 
+/// Describes one fault with its place in the model and its remedy.
 struct Fault {
   Part part = Part::model;
   Index index = 0;       ///< in the list of that part; of a state or prediction: of its component

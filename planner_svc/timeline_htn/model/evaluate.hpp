@@ -31,7 +31,7 @@ struct Bounds {
 /// there is no such state then.
 std::optional<Bounds> bounds(const Model& model, const State& state, std::span<const Index> objects);
 
-/// Is a number that a service is asked for.
+/// Names a number that a service is asked for.
 struct AskedNumber {
   Index table = 0;
   std::vector<Index> row;

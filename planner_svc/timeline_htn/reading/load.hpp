@@ -15,7 +15,8 @@ namespace roci::planner::timeline_htn::reading {
 /// The version of the form, and the newest that is read (docs/formats.md).
 inline constexpr int kFormat = 1;
 
-/// Is a part of a model that came otherwise than as a file; `name` stands for the file in what is said of places.
+/// Holds a part of a model that came otherwise than as a file; `name` stands for the file in what is said of
+/// places.
 struct Text {
   std::string name;
   std::string content;

@@ -13,7 +13,7 @@
 
 namespace roci::planner::timeline_htn::request {
 
-/// Is what owners said, and why nothing can be planned with it.
+/// Holds what owners said, and why nothing can be planned with it.
 struct Asked {
   std::vector<engine::FunctionUse> uses;
   /// solved: every number came, or is known not to exist, or was not found; such a one has no row.

@@ -31,7 +31,7 @@ std::optional<model::Model> read_model(const engine::Request& request, mission::
 /// problem that can be checked.
 std::vector<Misfit> put_request(const engine::Request& request, model::Model& model);
 
-/// Is what the timelines of a request show of a component.
+/// Holds what the timelines of a request show of a component.
 struct Observation {
   std::optional<model::Pattern> state;  ///< of objects alone; nothing: none of its states is seen
   std::string seen;  ///< "nav = parked(wp1)", also where that is no state of it; empty: nothing

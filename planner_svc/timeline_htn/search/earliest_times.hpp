@@ -9,7 +9,7 @@
 
 namespace roci::planner::timeline_htn::search {
 
-/// Is a goal that no plan brings about in its window.
+/// Names a goal that no plan brings about in its window.
 struct TooLate {
   Index goal = kNone;
   std::string reason;

@@ -18,15 +18,17 @@
 
 namespace roci::planner::timeline_htn::search {
 
+/// Names what estimates how much is left to do.
 enum class Heuristic { blind, relaxed_plan, landmarks };
 
-/// Is one way to search: they differ in what they try first.
+/// Describes one way to search; ways differ in what they try first.
 struct Resolver {
   Heuristic heuristic = Heuristic::blind;
   Order order = Order::first_declared;
   friend bool operator==(const Resolver&, const Resolver&) = default;
 };
 
+/// Says how far a search has come.
 enum class Outcome {
   searching,
   solved,
@@ -35,6 +37,7 @@ enum class Outcome {
   cancelled,
 };
 
+/// Counts what a search did, and what it keeps.
 struct Count {
   std::uint64_t expanded = 0;   ///< plans of which the steps were looked at
   std::uint64_t evaluated = 0;  ///< steps that were tried
@@ -56,8 +59,8 @@ std::unique_ptr<Estimate> make_estimate(Heuristic heuristic, Ground& ground, con
 /// first, then the first in the problem.
 std::vector<Index> goal_order(const model::Problem& problem);
 
-/// Is a greedy best-first search with deferred evaluation; blind it is depth-first. It is resumable, and the same
-/// model, resolver and budgets give the same steps.
+/// Runs a greedy best-first search with deferred evaluation; blind it is depth-first. It is resumable, and the
+/// same model, resolver and budgets give the same steps.
 ///
 /// It searches in up to five passes, each of which finds more and takes longer. The first goes straight from state to
 /// state of a timeline, and drops a plan whose timelines and open activities are those of one that was seen, whatever

@@ -13,7 +13,7 @@
 
 namespace roci::planner::utility_htn::adapter {
 
-/// Is what an outlook is made of. All outlive it.
+/// Refers to what an outlook is made of, all of which must outlive it.
 struct Situation {
   const model::Network& network;
   const flattening::Chains& chains;

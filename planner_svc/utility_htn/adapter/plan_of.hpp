@@ -62,7 +62,7 @@ temporal::PlanActivity initial_activity(const model::Network& network, const cyc
 /// Returns whether the activity is one of initial_activity().
 bool is_initial(const temporal::PlanActivity& activity);
 
-/// Is what a plan tells of the cycle that made it.
+/// Holds what a plan tells of the cycle that made it.
 struct Recovered {
   cycle::Past past;
   /// When internal timelines had the values of `past`; none: the plan is of an engine that did not tell.

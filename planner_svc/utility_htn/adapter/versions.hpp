@@ -12,8 +12,8 @@ namespace roci::planner::utility_htn::adapter {
 /// know (StepInputs::executed), so two plans are all that is kept.
 class Versions {
  public:
-  /// Is the newest that was sent as long as it may be taken, else the executed one. Version 0:
-  /// the next one comes whole.
+  /// Returns the newest that was sent as long as it may be taken, else the executed one. Version 0: the next
+  /// one comes whole.
   const temporal::FlexiblePlan& base() const { return open_ ? sent_ : executed_; }
 
   void send(temporal::FlexiblePlan plan) {

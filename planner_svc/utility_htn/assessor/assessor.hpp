@@ -14,7 +14,7 @@
 
 namespace roci::planner::utility_htn::assessor {
 
-/// Is data that was generated on board.
+/// Describes data that were generated on board.
 struct ExistingProduct {
   std::string id;
   model::TaskIndex task = 0;       ///< the primitive task that generated it
@@ -23,7 +23,7 @@ struct ExistingProduct {
   friend bool operator==(const ExistingProduct&, const ExistingProduct&) = default;
 };
 
-/// Is what a prediction depends on.
+/// Holds what a prediction depends on.
 struct Context {
   const model::Network& network;
   const model::Values& values;

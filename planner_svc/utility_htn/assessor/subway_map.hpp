@@ -17,7 +17,7 @@ struct Stop {
   friend bool operator==(const Stop&, const Stop&) = default;
 };
 
-/// Is what is known of a target's biosignature: in the order of the states of its signature timeline.
+/// Says what is known of a target's biosignature: in the order of the states of its signature timeline.
 enum class Signature : std::uint8_t { unknown, negative, positive };
 
 /// Holds the state of all targets: signatures known, and samples planned whose signature is not known yet.

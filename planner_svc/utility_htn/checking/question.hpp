@@ -14,7 +14,7 @@
 
 namespace roci::planner::utility_htn::checking {
 
-/// Is one primitive task in a plan.
+/// Describes one primitive task in a plan.
 struct Step {
   std::uint64_t id = 0;  ///< the same in all versions
   model::TaskIndex task = 0;
@@ -26,12 +26,13 @@ struct Step {
   bool overdue = false;  ///< it should have before now: its times are the soonest ones
 };
 
-/// Is a requested task with all its primitive ones in order, those that are executed among them.
+/// Holds a requested task with all its primitive ones in order, those that are executed among them.
 struct Block {
   model::TaskIndex request = 0;
   std::vector<Step> steps;
 };
 
+/// Describes a downlink opportunity as the checker is told it.
 struct Window {
   std::string id;
   temporal::Time start{0};
@@ -43,6 +44,7 @@ struct Window {
   double heat_limit_s = std::numeric_limits<double>::infinity();
 };
 
+/// Describes data to be sent, and the window that the plan gives them.
 struct Product {
   std::string id;
   model::Tier tier = model::Tier::mandatory;
@@ -54,18 +56,21 @@ struct Product {
   bool reported = false;                  ///< the plan names it as left out or late, with the reason
 };
 
+/// Holds the data, the windows, and the energy limits of sols in joules.
 struct Downlinks {
   std::vector<Product> products{};
   std::vector<Window> windows{};  ///< in order of their starts
   std::map<std::uint32_t, double> sol_energy_j{};
 };
 
+/// Holds a value of a timeline that was observed.
 struct Observation {
   temporal::timelines::Index timeline = 0;
   temporal::Time sampled{0};
   double value = 0;
 };
 
+/// Holds one version of a plan, with all that it is checked against.
 struct Question {
   const model::Network& network;
   const model::Values& values;

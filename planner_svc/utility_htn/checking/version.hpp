@@ -11,7 +11,8 @@
 
 namespace roci::planner::utility_htn::checking {
 
-/// Is what a FlexiblePlan of the utility-driven engine says; planner_svc/utility_htn/README.md has the form.
+/// Holds what a FlexiblePlan of the utility-driven engine says; planner_svc/utility_htn/README.md has the
+/// form.
 struct Version {
   std::vector<Block> blocks;          ///< those of which no link has failed
   std::set<std::uint32_t> broken;     ///< numbers of the others: what is committed of them is skipped

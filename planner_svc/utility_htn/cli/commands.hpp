@@ -8,7 +8,7 @@
 
 namespace roci::planner::utility_htn::cli {
 
-/// Are the exit codes (docs/exit-codes.md).
+/// Names the exit codes (docs/exit-codes.md).
 enum ExitCode { done = 0, faulty = 1, wrong_use = 2 };
 
 /// Takes what people and what programs read.

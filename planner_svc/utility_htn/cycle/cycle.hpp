@@ -54,12 +54,12 @@ struct Report {
   std::vector<std::string> notes;
 };
 
-/// Is what outlives the process: with it and the blocks that are executed a cycle goes on as before.
+/// Holds what outlives the process: with it and the blocks that are executed a cycle goes on as before.
 struct Past {
   std::set<model::TaskIndex> done{};  ///< requests that need not come again
-  /// Are requests of the network that nobody asks for any more, as what failed too often.
+  /// Lists requests of the network that nobody asks for any more, as what failed too often.
   std::set<model::TaskIndex> withdrawn{};
-  /// Are templates that contingencies have requested (R69) and that are not done.
+  /// Lists templates that contingencies have requested (R69) and that are not done.
   std::set<model::TaskIndex> contingent{};
   model::Values values{};          ///< as learned
   std::vector<double> internal{};  ///< by timeline: values of those that nobody reports

@@ -9,7 +9,7 @@
 
 namespace roci::planner::utility_htn::cycle {
 
-/// Is the new end of what draws all the time.
+/// Holds the new end of what draws all the time.
 struct EarlyEnd {
   std::uint32_t load = 0;  ///< number of its block
   temporal::Time end{0};

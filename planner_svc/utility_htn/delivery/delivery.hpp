@@ -20,7 +20,7 @@ namespace roci::planner::utility_htn::delivery {
 /// Only what is stored waits for a downlink.
 enum class Fate { stored, sent, received, discarded, left_behind, lost };
 
-/// Is data that was generated on board.
+/// Describes data that were generated on board.
 struct Existing {
   model::DataProduct data;
   model::TaskIndex task = 0;     ///< the primitive task that generated it
@@ -30,7 +30,7 @@ struct Existing {
   friend bool operator==(const Existing&, const Existing&) = default;
 };
 
-/// Is what one planned downlink carries.
+/// Describes what one planned downlink carries.
 struct Downlink {
   model::TaskIndex task = 0;
   temporal::Time start{0};
@@ -51,7 +51,7 @@ struct Unsent {
   friend bool operator==(const Unsent&, const Unsent&) = default;
 };
 
-/// Is data that a schedule speaks of.
+/// Describes data that a schedule mentions.
 struct Scheduled {
   bool exists = false;
   std::uint64_t bytes = 0;
@@ -59,6 +59,7 @@ struct Scheduled {
   friend bool operator==(const Scheduled&, const Scheduled&) = default;
 };
 
+/// Says which data go with which downlink, and which are left out or late.
 struct Schedule {
   std::map<std::string, Scheduled> products{};  ///< all, by id
   std::vector<Downlink> downlinks{};            ///< by start

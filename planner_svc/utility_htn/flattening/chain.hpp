@@ -11,16 +11,17 @@
 
 namespace roci::planner::utility_htn::flattening {
 
-/// Is one way to do a requested task: its primitive tasks in order. A requested primitive task is a chain of one.
+/// Describes one way to do a requested task: its primitive tasks in order. A requested primitive task is a chain
+/// of one.
 struct Chain {
   model::TaskIndex task = 0;  ///< that is requested
   std::string name;  ///< "sample_0_1/first/raw": the task and the decompositions chosen, from the top
   std::vector<model::Subtask> links;  ///< primitive tasks; the gaps count from the link before
-  /// Are those of all decompositions chosen; they hold at the first start.
+  /// Holds the conditions of all decompositions chosen; they hold at the first start.
   std::vector<temporal::timelines::Constraint> when;
 };
 
-/// Are the chains of one batch, in the order of the network.
+/// Holds the chains of each batch, in the order of the network.
 struct Chains {
   std::vector<Chain> chains;
   std::vector<std::vector<std::uint32_t>> by_batch;  ///< indices of chains

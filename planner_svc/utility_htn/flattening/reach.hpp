@@ -9,7 +9,7 @@
 
 namespace roci::planner::utility_htn::flattening {
 
-/// Is what may still come to pass.
+/// Says what may still come to pass.
 struct Prospects {
   std::span<const double> timelines_now;      ///< newest values, by timeline Index
   const std::set<model::TaskIndex>& open;     ///< requests that may be planned

@@ -13,6 +13,7 @@ namespace roci::planner::utility_htn::model {
 /// Says which list of the network a fault lies in.
 enum class Part { network, parameter, timeline, task, site };
 
+/// Describes one fault with its place in the network and its remedy.
 struct Fault {
   Part part = Part::network;
   std::uint32_t index = 0;  ///< in the list of that part

@@ -18,7 +18,7 @@ namespace roci::planner::utility_htn::reading {
 /// Holds what each word in braces stands for.
 using Bindings = std::map<std::string, std::string, std::less<>>;
 
-/// Is mission::Entry, read with bindings; faults are those of Entry, with their places.
+/// Reads a mission::Entry with bindings; faults are those of Entry, with their places.
 class Source {
  public:
   explicit Source(mission::Entry entry, std::shared_ptr<const Bindings> bindings = nullptr);

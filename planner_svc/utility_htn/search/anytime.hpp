@@ -9,7 +9,7 @@
 
 namespace roci::planner::utility_htn::search {
 
-/// Is the best plan so far.
+/// Holds the best plan so far.
 struct Progress {
   Outcome outcome;
   temporal::RankVector bound{};  ///< no plan has more (see bound.hpp)

@@ -14,7 +14,7 @@
 
 namespace roci::planner::utility_htn::search {
 
-/// Is one task of a chain as a scheduler sees it.
+/// Describes one task of a chain as a scheduler sees it.
 struct Link {
   temporal::timelines::TaskId id = 0;
   temporal::timelines::Footprint footprint{};

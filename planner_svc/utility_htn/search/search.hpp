@@ -20,14 +20,14 @@
 
 namespace roci::planner::utility_htn::search {
 
-/// Is a chain in a plan, with the start of each of its links.
+/// Holds a chain in a plan, with the start of each of its links.
 struct Placed {
   std::uint32_t chain = 0;
   std::vector<temporal::Time> starts{};
   friend bool operator==(const Placed&, const Placed&) = default;
 };
 
-/// Is a placed task that sends data (Task::downlinks).
+/// Describes a placed task that sends data (Task::downlinks).
 struct PlannedDownlink {
   model::TaskIndex task = 0;
   temporal::Time start{0};
@@ -35,7 +35,7 @@ struct PlannedDownlink {
   temporal::timelines::TaskId id = 0;  ///< in a plan that runs: the number under which timelines know it
 };
 
-/// Is what a partial plan would generate and send. What is committed comes first in both lists.
+/// Says what a partial plan would generate and send. What is committed comes first in both lists.
 struct PlannedData {
   std::vector<model::DataProduct> products{};
   std::vector<PlannedDownlink> downlinks{};
@@ -57,7 +57,7 @@ using LaterDownlinks = std::function<std::optional<temporal::Time>(const Planned
 /// So many sols are tried for the downlinks of one chain.
 inline constexpr int kMostSols = 4;
 
-/// Is what is to be planned. All that it refers to outlives it.
+/// Says what is to be planned. All that it refers to outlives it.
 struct Problem {
   const model::Network& network;
   const model::Values& values;
@@ -72,7 +72,7 @@ struct Problem {
   std::span<const double> timelines_now{};  ///< newest values, by timeline Index; for the Assessor
   std::span<const assessor::ExistingProduct> products{};
   std::vector<Placed> committed{};  ///< chains that are placed in `anchored`, begun or not
-  /// Is what `committed` generates and sends at its real times; none: as the network says.
+  /// Says what `committed` generates and sends at its real times; none: as the network says.
   std::optional<PlannedData> standing{};
   std::vector<model::TaskIndex> closed{};    ///< requests that are done, failed for good or withdrawn
   temporal::timelines::TaskId first_id = 0;  ///< see task_id()
@@ -86,7 +86,7 @@ constexpr temporal::timelines::TaskId task_id(std::uint32_t chain, std::size_t l
   return (temporal::timelines::TaskId{chain} << 16U) | link;
 }
 
-/// Is a plan: chains by start of their first links, what is committed not among them.
+/// Holds a plan: chains by start of their first links, what is committed not among them.
 struct Plan {
   std::vector<Placed> placed{};
   temporal::RankVector utility{};  ///< sum, each chain in the context of those that start before it
@@ -107,7 +107,7 @@ struct Statistics {
   std::size_t bytes = 0;               ///< of the largest batch: nodes, queue and what recognises duplicates
 };
 
-/// Is what a search found.
+/// Holds what a search found.
 struct Outcome {
   Plan plan;
   bool complete = false;  ///< every queue ran empty: no order of adding chains gives a better plan
