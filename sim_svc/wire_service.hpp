@@ -33,7 +33,7 @@ v1::DataProduct to_wire(const world::Image&);
 v1::DataProduct to_wire(const world::Product&);
 v1::Hazard to_wire(const world::RockSeen&, const std::string& finder);
 v1::Hazard to_wire(const world::SoilMarked&, const std::string& finder);
-/// Is meant for the map of the robot that has found it.
+/// Translates a finding for the map of the robot that has found it.
 v1::TerrainFinding finding_of(const world::RockSeen&);
 v1::TerrainFinding finding_of(const world::SoilMarked&);
 v1::PathRequest to_wire(const world::PathWanted&);

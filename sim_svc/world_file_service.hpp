@@ -14,8 +14,8 @@ namespace roci::sim {
 std::string to_text(const world::WorldMemory&);
 std::optional<world::WorldMemory> world_memory_from(const std::string& text);
 
-/// Is always whole: it is written beside and renamed. It is not waited for, so the death of the process loses nothing
-/// of it and the death of the host may.
+/// Keeps a file that is always whole: it is written beside and renamed. It is not waited for, so the death of the
+/// process loses nothing of it and the death of the host may.
 class WorldFile {
  public:
   explicit WorldFile(std::filesystem::path file) : file_(std::move(file)) {}

@@ -23,9 +23,9 @@ struct ArmSettings {
   std::vector<double> start_joints;  ///< rad or m, one per joint
 };
 
-/// Is an arm: move (from, to) asks for a trajectory between named poses, with the load that it believes to hold, and
-/// tracks it; a stop on the way leaves it at the stop pose, and so does a motion that cannot be ended (`arm-stalled`).
-/// It does not move while the body drives.
+/// Simulates an arm: move (from, to) asks for a trajectory between named poses, with the load that it believes to
+/// hold, and tracks it; a stop on the way leaves it at the stop pose, and so does a motion that cannot be ended
+/// (`arm-stalled`). It does not move while the body drives.
 class Arm : public world::Component, public world::Manipulator, public world::BodyInterlock {
  public:
   Arm(ArmSettings, world::RandomStream noise);

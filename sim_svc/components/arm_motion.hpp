@@ -25,7 +25,7 @@ struct ArmSample {
   double energy_j = 0;  ///< used since the start of the motion
 };
 
-/// Is a whole motion as it happens if nobody interrupts it; sample i holds at start + i * kArmStep.
+/// Describes a whole motion as it happens if nobody interrupts it; sample i holds at start + i * kArmStep.
 struct ArmTrace {
   temporal::Time start{};
   std::vector<ArmSample> samples;

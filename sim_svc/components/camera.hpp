@@ -27,8 +27,8 @@ struct CameraSettings {
 
 inline constexpr int kMostViews = 16;
 
-/// Is a camera on a body that stands on the ground: image (image) takes a picture of what lies ahead, which
-/// is on board when it is done. The body stands still meanwhile. Of its own accord it takes a panorama at intervals, as
+/// Simulates a camera on a body that stands on the ground: image (image) takes a picture of what lies ahead, which is
+/// on board when it is done. The body stands still meanwhile. Of its own accord it takes a panorama at intervals, as
 /// soon as the body stands and it takes no other picture: its views (Image::kind `panorama`) show what lies all around,
 /// cost no energy, and are not kept.
 class Camera final : public world::Component, public world::BodyInterlock {

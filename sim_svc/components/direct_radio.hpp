@@ -36,12 +36,12 @@ struct DirectRadioSettings {
   double light_time_s = 0;  ///< after which the last byte of a product is received
 };
 
-/// Is a radio to Earth. prepare warms and points it. send waits for contact and then sends stored products, each once
-/// and whole: the critical ones first, then those that the newest schedule names for this downlink, in its order, with
-/// which it ends. What no schedule names goes by tier, then by age. receive needs contact for receive_s. A task that
-/// has no contact until its step must end fails `no-contact` (`too-cold`: its zone never became warm); `contact-lost`
-/// is one whose window closed, and `out-of-time` one whose step ended, before all that was to be sent was. What was
-/// sent by then stays sent.
+/// Simulates a radio to Earth. prepare warms and points it. send waits for contact and then sends stored products,
+/// each once and whole: the critical ones first, then those that the newest schedule names for this downlink, in its
+/// order, with which it ends. What no schedule names goes by tier, then by age. receive needs contact for receive_s. A
+/// task that has no contact until its step must end fails `no-contact` (`too-cold`: its zone never became warm);
+/// `contact-lost` is one whose window closed, and `out-of-time` one whose step ended, before all that was to be sent
+/// was. What was sent by then stays sent.
 class DirectRadio final : public world::Component {
  public:
   DirectRadio(DirectRadioSettings, world::RandomStream noise);

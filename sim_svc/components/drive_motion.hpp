@@ -51,8 +51,8 @@ struct DriveSample {
   std::size_t next_waypoint = 0;  ///< index into the way-points
 };
 
-/// Is a whole drive as it happens if nobody interrupts it. Sample i holds at start + i * kDriveStep; the last
-/// one at `end`.
+/// Describes a whole drive as it happens if nobody interrupts it. Sample i holds at start + i * kDriveStep;
+/// the last one at `end`.
 struct DriveTrace {
   temporal::Time start{};
   temporal::Time end{};

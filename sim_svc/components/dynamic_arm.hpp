@@ -15,8 +15,9 @@ struct DynamicArmSettings {
   JointsWear wear;  ///< at the start
 };
 
-/// Is an arm whose motions are worked out by its motors, its inertia, its friction, and the load that it truly holds
-/// (PayloadHolder), while its controller knows of the told load alone. Joints wear by use and by mishap (JointWear).
+/// Simulates an arm whose motions are worked out by its motors, its inertia, its friction, and the load that it
+/// truly holds (PayloadHolder), while its controller knows of the told load alone. Joints wear by use and by mishap
+/// (JointWear).
 class DynamicArm final : public Arm {
  public:
   DynamicArm(DynamicArmSettings, world::RandomStream noise);

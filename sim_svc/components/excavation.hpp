@@ -25,8 +25,8 @@ struct Cutter {
   double area_m2 = 0.03;  ///< of the trench, above 0
 };
 
-/// Is the ice below one site, layer by layer, down to the depth that a trench there is to have. Its rate of cutting is
-/// power / (specific energy × area) in each layer, so that depth and time follow from each other exactly.
+/// Models the ice below one site, layer by layer, down to the depth that a trench there is to have. Its rate of
+/// cutting is power / (specific energy × area) in each layer, so that depth and time follow from each other exactly.
 class IceColumn {
  public:
   /// Draws the layers down to `depth_m`, of which there are at most kMostLayers.

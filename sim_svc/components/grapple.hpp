@@ -14,13 +14,13 @@
 
 namespace roci::sim::components {
 
-/// Is a place of the structure for one module.
+/// Describes a place of the structure for one module.
 struct SlotSettings {
   std::string pose;      ///< of the arm, from which the tool works on it
   bool blocked = false;  ///< nothing can be placed there; nobody knows before it is localized
 };
 
-/// Is a module of the structure.
+/// Describes a module of the structure.
 struct ModuleSettings {
   std::string slot;         ///< in which it is latched at the start
   double mass_kg = 0;       ///< as the robot is told
@@ -44,10 +44,10 @@ struct GrappleSettings {
   std::map<std::string, ModuleSettings> modules;  ///< each in a slot of its own
 };
 
-/// Is a grapple: localize (slot) gives it a fix on a slot, which is lost when the arm moves; grasp (module, slot) takes
-/// a module out, and place (module, slot) puts it in and latches it; both need a fix on the slot. The arm, if there is
-/// one, rests at the slot's pose meanwhile. A latch that does not close is tried again (R146)
-/// as long as there is time left.
+/// Simulates a grapple: localize (slot) gives it a fix on a slot, which is lost when the arm moves; grasp (module,
+/// slot) takes a module out, and place (module, slot) puts it in and latches it; both need a fix on the slot. The arm,
+/// if there is one, rests at the slot's pose meanwhile. A latch that does not close is tried again (R146) as long as
+/// there is time left.
 class Grapple final : public world::Component,
                       public world::PayloadHolder,
                       public world::BodyInterlock,

@@ -11,7 +11,8 @@
 
 namespace roci::sim::components {
 
-/// Is a component whose tasks have phases in one thermal zone; they can be slowed, and succeed without effect.
+/// Simulates a component whose tasks have phases in one thermal zone; they can be slowed, and succeed without
+/// effect.
 class PhasedComponent : public world::Component {
  public:
   bool busy() const override { return phases_.busy(); }

@@ -13,7 +13,7 @@
 
 namespace roci::sim::components {
 
-/// Is one part of a task.
+/// Describes one part of a task.
 struct Phase {
   enum class Until { over, warm };
   Until until = Until::over;  ///< until so much work is done, or until the zone is warm enough to work

@@ -12,7 +12,7 @@
 
 namespace roci::sim::components {
 
-/// Is a product that a command makes.
+/// Describes a product that a command makes.
 struct ProductForm {
   std::string kind;  ///< arguments of the command stand in braces: trench_{site}
   world::Tier tier = world::Tier::mandatory;

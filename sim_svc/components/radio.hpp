@@ -19,8 +19,8 @@ struct RadioSettings {
   std::string window = "comm.window";  ///< timeline that says when the other side is in view
 };
 
-/// Is a radio: send (image) sends an image on board at the radio's rate, only while the window is open; when
-/// the window closes before the end, the send fails and the image stays stored.
+/// Simulates a radio: send (image) sends an image on board at the radio's rate, only while the window is
+/// open; when the window closes before the end, the send fails and the image stays stored.
 class Radio final : public world::Component {
  public:
   Radio(RadioSettings, world::RandomStream noise);

@@ -18,7 +18,7 @@ namespace roci::sim::components {
 
 using ArmJoints = std::array<double, 5>;  ///< rad
 
-/// Is a place where a trench may be dug.
+/// Describes a place where a trench may be dug.
 struct SamplingSite {
   Ice ice;
   double jams_per_h = 0;                   ///< of cutting, on average
@@ -55,11 +55,11 @@ struct SamplingArmSettings {
   ArmJoints dump{-1.6, -0.7, 1.4, 0.9, 0};
 };
 
-/// Is a sampling arm. It takes prepare, excavate (site), collect (site, target), transport and discard; each warms the
-/// zone first, moves the arm and works. After prepare, which comes before all else and may come again, the tool is
-/// empty. What is dug stays dug, whatever becomes of the task; a trench that has its depth already is done at once. It
-/// fails `stuck` where the cutter jams and `too-hard` where the ice gives way no more, and refuses what makes no sense:
-/// `not-prepared unknown-site unknown-target not-excavated not-empty no-sample too-cold`.
+/// Simulates a sampling arm. It takes prepare, excavate (site), collect (site, target), transport and discard; each
+/// warms the zone first, moves the arm and works. After prepare, which comes before all else and may come again, the
+/// tool is empty. What is dug stays dug, whatever becomes of the task; a trench that has its depth already is done at
+/// once. It fails `stuck` where the cutter jams and `too-hard` where the ice gives way no more, and refuses what makes
+/// no sense: `not-prepared unknown-site unknown-target not-excavated not-empty no-sample too-cold`.
 class SamplingArm final : public PhasedComponent, public world::SampleCarrier {
  public:
   SamplingArm(SamplingArmSettings, world::RandomStream noise);

@@ -10,7 +10,7 @@
 
 namespace roci::sim::components {
 
-/// Is one instrument that presses on the ground.
+/// Describes one instrument that presses on the ground.
 struct SoilInstrument {
   std::string name;
   double ahead_m = 0;    ///< of the body's centre, in the direction of travel
@@ -31,14 +31,14 @@ struct SoilSensorSettings {
   double mark_radius_m = 1.5;         ///< of the circle that is marked, from the No-Go onwards
 };
 
-/// Is the verdict that the vehicle must not go there.
+/// Gives the verdict that the vehicle must not go there.
 struct NoGo {
   terrain::Point at;  ///< that was measured
   std::string instrument;
   Footing expected;  ///< of the vehicle, as the measurement has it
 };
 
-/// Is a disc on the map.
+/// Describes a disc on the map.
 struct MarkedDisc {
   terrain::Point centre;
   double radius = 0;

@@ -14,7 +14,7 @@
 
 namespace roci::sim::components {
 
-/// Is a state whose words may hold arguments of the command in braces: going-to ({to}).
+/// Holds a state whose words may hold arguments of the command in braces: going-to ({to}).
 struct StateTemplate {
   std::string name;
   std::vector<std::string> arguments;
@@ -26,7 +26,7 @@ struct NumberChange {
   std::optional<double> to;  ///< the value at the end, instead
 };
 
-/// Is a command of a task component.
+/// Describes a command of a task component.
 struct TaskCommand {
   std::string name;
   std::vector<std::string> arguments{};
@@ -48,7 +48,7 @@ struct TaskCommand {
   std::map<std::string, StateTemplate> leaves{};
 };
 
-/// Is a numeric timeline of the component, `<robot>.<component>.<name>`.
+/// Describes a numeric timeline of the component, `<robot>.<component>.<name>`.
 struct TaskNumber {
   std::string name;
   double start = 0;

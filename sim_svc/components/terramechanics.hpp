@@ -21,7 +21,7 @@ struct Footing {
   bool bears = true;  ///< false: it sinks to its axles, or the soil gives less thrust than is needed
 };
 
-/// Is the largest slip at which a wheel still makes way.
+/// Gives the largest slip at which a wheel still makes way.
 inline constexpr double kMostSoilSlip = 0.95;
 
 /// Computes the footing by Bekker's formulas for a rigid wheel, as in Wong, "Theory of Ground Vehicles", 4th ed.

@@ -8,7 +8,7 @@
 
 namespace roci::sim::scenario {
 
-/// Is an event that the scenario expects.
+/// Describes an event that the scenario expects.
 struct ExpectedEvent {
   std::string code;
   std::string part;      ///< belongs to the event's text; empty: any text

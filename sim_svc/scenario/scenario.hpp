@@ -17,9 +17,10 @@
 
 namespace roci::sim::scenario {
 
+/// Says how much a goal of the scenario matters.
 enum class Importance { hard, optional, opportunistic };
 
-/// Is a goal that somebody else than the robot publishes during the run.
+/// Describes a goal that somebody else than the robot publishes during the run.
 struct GoalStimulus {
   std::string issuer;
   std::string id;
@@ -60,7 +61,8 @@ struct NetworkStimulus {
 /// What the ground may order; the words are those of `roci order`.
 enum class OrderKind { hold, release, approve, set_value, autonomy, answer, drop, relaunch, safe, command };
 
-/// Is an order of the ground to an executive (docs/orders.md); which of the members count depends on its kind.
+/// Describes an order of the ground to an executive (docs/orders.md); which of the members count depends on
+/// its kind.
 struct OrderStimulus {
   std::string issuer;
   std::string id;
@@ -72,13 +74,13 @@ struct OrderStimulus {
   int level = 4;  ///< of autonomy: 1 to 4
 };
 
-/// Is something that the scenario lets happen at a time.
+/// Describes something that the scenario lets happen at a time.
 struct Stimulus {
   temporal::Time at{};
   std::variant<GoalStimulus, RecallStimulus, HazardStimulus, NetworkStimulus, OrderStimulus,
                world::Disturbance>
       what;
-  /// Is where `what` stands in the file, if it was read from one.
+  /// Says where `what` stands in the file, if it was read from one.
   std::optional<mission::Entry> entry{};
 };
 

@@ -9,7 +9,7 @@
 
 namespace roci::sim::setup {
 
-/// Is a component as `simulation.robots` of mission.yaml lists it.
+/// Describes a component as `simulation.robots` of mission.yaml lists it.
 struct ComponentEntry {
   std::string name;
   std::string type;
@@ -19,7 +19,7 @@ struct ComponentEntry {
   bool has_rate = false;
 };
 
-/// Is a robot as `simulation.robots` of mission.yaml lists it.
+/// Describes a robot as `simulation.robots` of mission.yaml lists it.
 struct RobotEntry {
   std::string name;
   std::vector<ComponentEntry> components;

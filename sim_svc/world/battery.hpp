@@ -57,7 +57,7 @@ double solar_power_w(const PowerParameters&, temporal::Time);
 /// Returns what the panel gives in [from, to), in J: an orbit's exactly, else the power in the middle for as long.
 double solar_energy_j(const PowerParameters&, temporal::Time from, temporal::Time to);
 
-/// Is an ideal store between 0 and its capacity.
+/// Models an ideal store between 0 and its capacity.
 class Battery {
  public:
   Battery(double energy_j, double capacity_j);

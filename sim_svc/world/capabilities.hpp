@@ -49,7 +49,7 @@ class SampleCarrier {
   virtual std::optional<SampleOrigin> delivered() const = 0;
 };
 
-/// Is a load as a tool holds it.
+/// Describes a load as a tool holds it.
 struct Payload {
   double told_kg = 0;            ///< as the robot believes it to be
   double true_kg = 0;            ///< as it is

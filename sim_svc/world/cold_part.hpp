@@ -14,7 +14,7 @@ struct ColdPart {
   double usual_k = 100;  ///< of the surroundings for which durations and powers of its work are told
 };
 
-/// Is what the warmth of such a part asks for.
+/// Says what the warmth of such a part asks for.
 struct Warming {
   double seconds = 0;    ///< until it is at work_k
   double holding_w = 0;  ///< from then on

@@ -30,7 +30,7 @@ struct Surroundings {
   std::vector<PhysicalEffect> effects{};  ///< takes what the component does to the world
 };
 
-/// Is a command of a component with the arguments that it needs.
+/// Describes a command of a component with the arguments that it needs.
 struct CommandForm {
   std::string name;
   std::vector<std::string> arguments;
@@ -41,40 +41,41 @@ struct CommandForm {
   std::vector<std::string> missing(const std::function<bool(const std::string&)>& is_given) const;
 };
 
-/// Is a state timeline beside the component's own, `<robot>.<name>`, of a thing that it handles
+/// Describes a state timeline beside the component's own, `<robot>.<name>`, of a thing that it handles
 /// (sample.soil).
 struct NamedState {
   std::string name;
   temporal::State state;
 };
 
-/// Is a state that a component may be in, with how many arguments it has then.
+/// Describes a state that a component may be in, with how many arguments it has then.
 struct StateForm {
   std::string name;
   std::size_t arguments{};
   auto operator<=>(const StateForm&) const = default;
 };
 
-/// Is a state timeline that a component always has beside its own, `<robot>.<name>`.
+/// Describes a state timeline that a component always has beside its own, `<robot>.<name>`.
 struct NamedForm {
   std::string name;
   std::vector<StateForm> states;
 };
 
-/// Is a family of state timelines of things that a component handles, `<robot>.<family>.<thing>`.
+/// Describes a family of state timelines of things that a component handles, `<robot>.<family>.<thing>`.
 struct ThingForm {
   std::string family;
   std::vector<StateForm> states;
 };
 
-/// Is a number timeline of the component, `<robot>.<component>.<name>`, reported in steps of `resolution`.
+/// Describes a number timeline of the component, `<robot>.<component>.<name>`, reported in steps of
+/// `resolution`.
 struct NamedNumber {
   std::string name;
   double value = 0;
   double resolution = 1e-3;
 };
 
-/// Is what of a component outlives the process that speaks for it, by names of its own.
+/// Holds what of a component outlives the process that speaks for it, by names of its own.
 using Memory = std::map<std::string, temporal::Value>;
 
 /// Says what the robot asks of each of its parts. begin() is called only while it is not busy; next_change()
@@ -84,7 +85,7 @@ class Component {
  public:
   virtual ~Component() = default;
 
-  /// Is told the parts of its robot, itself included, before anything else; they live as long as it does.
+  /// Takes in the parts of its robot, itself included, before anything else; they live as long as it does.
   virtual void meet(const ComponentSet&) {}
 
   virtual std::vector<CommandForm> commands() const = 0;

@@ -63,7 +63,7 @@ struct TrenchCollapse {
   double share = 0.5;  ///< of its depth that is left, 0 … 1
 };
 
-/// Is what can go wrong within a component, whichever has the thing that is named.
+/// Names what can go wrong within a component, whichever has the thing that is named.
 using Mishap = std::variant<ModuleFailure, SlotBlock, JointWear, TrenchCollapse>;
 
 /// Lets a mishap befall the first component of the robot that has the thing.

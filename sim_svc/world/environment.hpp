@@ -13,14 +13,14 @@
 
 namespace roci::sim::world {
 
-/// Is a boulder that no map shows, in metres.
+/// Describes a boulder that no map shows, in metres.
 struct Rock {
   double x = 0;
   double y = 0;
   double radius = 0;
 };
 
-/// Is the true ground.
+/// Holds the true ground.
 struct Ground {
   std::shared_ptr<const terrain::Site> site;  ///< empty in a world without ground
   std::vector<Rock> hidden_rocks;

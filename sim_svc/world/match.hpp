@@ -3,7 +3,7 @@
 
 namespace roci::sim::world {
 
-/// Is callable with whatever one of its cases takes, for std::visit.
+/// Accepts whatever one of its cases takes, for std::visit.
 template <class... Cases>
 struct Match : Cases... {
   using Cases::operator()...;

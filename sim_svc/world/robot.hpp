@@ -53,7 +53,7 @@ struct RobotSetup {
   std::optional<double> data_bytes{};          ///< room for data products; empty: it makes none
 };
 
-/// Is a command that a component took up; bench/kill counts these.
+/// Describes a command that a component took up; bench/kill counts these.
 struct Begun {
   temporal::Time at{};
   std::string robot;
@@ -61,7 +61,7 @@ struct Begun {
   Task task;
 };
 
-/// Is what of a robot outlives the process that speaks for it.
+/// Holds what of a robot outlives the process that speaks for it.
 struct RobotMemory {
   std::optional<Pose> pose;
   std::optional<double> energy_j;       ///< in its battery

@@ -10,9 +10,9 @@
 
 namespace roci::sim::world {
 
-/// Is soil by its pressure-sinkage curve p = (k_c / b + k_phi) z^n (Bekker, "Introduction to Terrain-Vehicle Systems",
-/// 1969; b is the width of what presses, z the sinkage) and its shear strength c + p tan(phi), of which a shear
-/// displacement j brings up the share 1 - exp(-j / K) (Janosi and Hanamoto, 1961).
+/// Describes soil by its pressure-sinkage curve p = (k_c / b + k_phi) z^n (Bekker, "Introduction to Terrain-Vehicle
+/// Systems", 1969; b is the width of what presses, z the sinkage) and its shear strength c + p tan(phi), of which a
+/// shear displacement j brings up the share 1 - exp(-j / K) (Janosi and Hanamoto, 1961).
 struct Soil {
   double exponent = 1.1;                ///< n, above 0, at most 2
   double cohesive_modulus = 990;        ///< k_c, N/m^(n+1)
@@ -23,7 +23,7 @@ struct Soil {
   bool operator==(const Soil&) const = default;
 };
 
-/// Is where a soil lies, in metres of the map frame: within the outline, or, if it has none, the circle.
+/// Says where a soil lies, in metres of the map frame: within the outline, or, if it has none, the circle.
 struct SoilArea {
   std::string soil;  ///< a key of SoilLayer::soils
   terrain::Point centre;

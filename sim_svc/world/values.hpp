@@ -33,7 +33,7 @@ struct TaskKey {
   auto operator<=>(const TaskKey&) const = default;
 };
 
-/// Is one command as a component runs it.
+/// Describes one command as a component runs it.
 struct Task {
   TaskKey key;
   std::string command;
@@ -65,15 +65,15 @@ struct Results {
   bool operator==(const Results&) const = default;
 };
 
-/// Is something physical that a component has just done: a motion that began, an image that was taken, a sample
-/// that was picked. It does not come again by being asked for twice.
+/// Describes something physical that a component has just done: a motion that began, an image that was taken, a
+/// sample that was picked. It does not come again by being asked for twice.
 struct PhysicalEffect {
   std::string kind;
   std::string object;  ///< that it was done to
 };
 
-/// Is such an effect with what caused it. All effects in a world are told, whoever was behind the command: what an
-/// owner's rules let pass is seen here, not what it was asked for (bench/kill counts them).
+/// Holds such an effect with what caused it. All effects in a world are told, whoever was behind the command: what
+/// an owner's rules let pass is seen here, not what it was asked for (bench/kill counts them).
 struct Effect {
   temporal::Time at{};
   std::string robot;
@@ -84,7 +84,7 @@ struct Effect {
 
 // These leave the world. All values carry the exact time at which they came about.
 
-/// Is the newest word on a task; the last one has a stage other than `accepted` and `repairing`.
+/// Holds the newest word on a task; the last one has a stage other than `accepted` and `repairing`.
 struct TaskReport {
   TaskKey key;
   TaskStage stage = TaskStage::accepted;
@@ -95,7 +95,7 @@ struct TaskReport {
   bool operator==(const TaskReport&) const = default;
 };
 
-/// Is a timeline's new value; `timeline` is its whole name, `<robot>.<…>`, or that of a window.
+/// Holds a timeline's new value; `timeline` is its whole name, `<robot>.<…>`, or that of a window.
 struct Observed {
   std::string timeline;
   temporal::Value value;
@@ -103,7 +103,7 @@ struct Observed {
   bool operator==(const Observed&) const = default;
 };
 
-/// Is an image that a robot has taken.
+/// Describes an image that a robot has taken.
 struct Image {
   std::string id;
   std::string robot;
@@ -118,7 +118,7 @@ struct Image {
   bool operator==(const Image&) const = default;
 };
 
-/// Is a rock that no map shows, met by a robot; all robots know it by the same id.
+/// Describes a rock that no map shows, met by a robot; all robots know it by the same id.
 struct RockSeen {
   std::string id;
   std::string robot;
@@ -130,7 +130,7 @@ struct RockSeen {
   bool operator==(const RockSeen&) const = default;
 };
 
-/// Is ground that a robot has measured and that somebody must not drive over, as a circle.
+/// Describes ground that a robot has measured and that somebody must not drive over, as a circle.
 struct SoilMarked {
   std::string id;
   std::string robot;  ///< that has found it
@@ -180,7 +180,7 @@ struct Way {
   std::vector<terrain::Point> points;
 };
 
-/// Is a commanded point of a joint-space trajectory: seconds since its start, rad (or m) per joint.
+/// Holds a commanded point of a joint-space trajectory: seconds since its start, rad (or m) per joint.
 struct JointTarget {
   double time_s = 0;
   std::vector<double> joints;

@@ -9,7 +9,7 @@
 
 namespace roci::sim::world {
 
-/// Is a Boolean timeline that is true in [opens, closes) of each interval. Intervals ascend and do not
+/// Describes a Boolean timeline that is true in [opens, closes) of each interval. Intervals ascend and do not
 /// overlap.
 struct Window {
   std::string timeline;
