@@ -16,7 +16,7 @@ inline constexpr int kFeatures = 10;
 /// that are no uniform edge.
 using Features = Eigen::Matrix<double, kFeatures, 1>;
 
-/// Is a rectangle of ground in an image.
+/// Holds a rectangle of ground in an image.
 struct Patch {
   Window window;
   terrain::Point ground;  ///< what its middle shows
