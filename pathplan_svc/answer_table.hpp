@@ -10,7 +10,7 @@
 
 namespace roci::pathplan {
 
-/// Is an answer with what it stands on.
+/// Holds an answer with what it rests on.
 struct KeptAnswer {
   PathOutcome outcome;  ///< without way-points
   Polyline corners;     ///< of the path, if found
