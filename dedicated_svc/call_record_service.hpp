@@ -13,7 +13,7 @@
 
 namespace roci::dedicated {
 
-/// Is a command from above that is being carried out, as far as it has come.
+/// Describes a command from above that is being carried out, as far as it has come.
 struct RunRecord {
   services::owner::Request request;  ///< but for who sent it when
   temporal::Time begun{};
@@ -22,8 +22,9 @@ struct RunRecord {
   std::optional<services::owner::Word> broken_off{};  ///< why it is to end early
 };
 
-/// Is kept in a small file, whole or not at all, before what it says is done. Where the disk does not take a change,
-/// all is forgotten with the process: an old word would have things done twice. Changes throw std::system_error then.
+/// Keeps calls in a small file, whole or not at all, before what it says is done. Where the disk does not take a
+/// change, all is forgotten with the process: an old word would have things done twice. Changes throw
+/// std::system_error then.
 class CallRecord {
  public:
   /// Reads the file, if there is one. An empty path keeps nothing. `around_write` is called before and after each write

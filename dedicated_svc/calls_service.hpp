@@ -19,7 +19,7 @@
 
 namespace roci::dedicated {
 
-/// Is a place that an object of the mission stands for, in metres.
+/// Describes a place that an object of the mission stands for, in metres.
 struct Spot {
   double x = 0;
   double y = 0;
