@@ -11,7 +11,7 @@
 
 namespace roci::console::cli {
 
-/// Is an activity at its depth in the hierarchy; 0 is the top.
+/// Holds an activity at its depth in the hierarchy; 0 is the top.
 template <class Activity>
 struct InLevels {
   const Activity* activity = nullptr;

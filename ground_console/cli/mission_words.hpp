@@ -10,6 +10,7 @@
 
 namespace roci::console::cli {
 
+/// Describes a kind of goals to people, with an example.
 struct GoalKindWords {
   std::string name;
   std::string help;
@@ -17,12 +18,13 @@ struct GoalKindWords {
   std::map<std::string, std::string> example;  ///< a value for each argument, as far as the mission says
 };
 
+/// Holds what a mission file says to people.
 struct MissionWords {
   std::string name;
   std::vector<GoalKindWords> goal_kinds;
   std::map<std::string, std::string> units;  ///< by timeline, "rover.battery" → "J"; a name may end in *
 
-  /// Empty for a timeline that has none.
+  /// Returns the unit of a timeline, or an empty text if it has none.
   std::string unit_of(const std::string& timeline) const;
 };
 

@@ -7,6 +7,7 @@
 
 namespace roci::console::cli {
 
+/// Holds the arguments of `roci network`.
 struct NetworkArguments {
   std::string file;       ///< of `upload`: YAML or binary
   std::string parameter;  ///< of `set`

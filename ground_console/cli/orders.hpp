@@ -9,6 +9,7 @@
 
 namespace roci::console::cli {
 
+/// Holds the arguments of `roci order`.
 struct OrderArguments {
   v1::OrderKind kind = v1::ORDER_HOLD;
   std::string target;

@@ -8,6 +8,7 @@
 
 namespace roci::console::cli {
 
+/// Holds the arguments of `roci reach`.
 struct ReachArguments {
   double x_m = 0;
   double y_m = 0;

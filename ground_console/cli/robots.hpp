@@ -13,6 +13,7 @@
 
 namespace roci::console::cli {
 
+/// Holds what is known of one robot.
 struct Robot {
   std::string name;
   std::optional<lib::Place> place{};

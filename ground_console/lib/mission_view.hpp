@@ -23,12 +23,14 @@
 
 namespace roci::console::lib {
 
+/// Holds a position in the map frame, in metres.
 struct Place {
   double x_m = 0;
   double y_m = 0;
   bool operator==(const Place&) const = default;
 };
 
+/// Keeps the newest of everything that came down; late or repeated samples never replace newer ones.
 class MissionView {
  public:
   /// Late or repeated samples never replace newer ones.

@@ -9,6 +9,7 @@
 
 namespace roci::console::cli::map {
 
+/// Holds the arguments of `roci map`.
 struct MapArguments {
   std::string png;      ///< the file to write; empty: none
   std::string svg;      ///< the same, with timelines and what each robot knows; empty: none

@@ -11,6 +11,7 @@
 
 namespace roci::console::cli::map {
 
+/// Holds all that the picture of a run shows.
 struct RunPicture {
   std::string title;
   std::string subtitle{};

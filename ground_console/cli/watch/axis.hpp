@@ -8,6 +8,7 @@
 
 namespace roci::console::cli::watch {
 
+/// Holds a span of mission time, in microseconds.
 struct Span {
   std::int64_t from;
   std::int64_t to;

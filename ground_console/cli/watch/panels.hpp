@@ -14,6 +14,7 @@
 
 namespace roci::console::cli::watch {
 
+/// Holds a rectangle of the canvas, in characters.
 struct Rectangle {
   std::size_t row = 0, column = 0, width = 0, height = 0;
 };
