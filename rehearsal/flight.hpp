@@ -34,6 +34,7 @@ services::node::NodeOptions node_options(const std::filesystem::path& mission, c
 /// of somebody else (loaded.hpp). Throws std::invalid_argument, with the remedy, where there is none.
 services::MakeService* make_of(const mission::ServiceEntry&, const std::vector<Program>& more = {});
 
+/// Says what is flown and how fast.
 struct FlightOptions {
   services::RunSettings run;
   int domain = 1;   ///< flights with different domains do not hear each other

@@ -28,6 +28,7 @@ struct CheckedExecutive {
   exec::mission::MissionModel model;
 };
 
+/// Holds a mission as far as it could be read.
 struct CheckedMission {
   std::filesystem::path folder;
   mission::Entry file;  ///< mission.yaml

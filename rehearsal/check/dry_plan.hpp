@@ -33,6 +33,7 @@ struct UnachievedKind {
   std::string details;
 };
 
+/// Holds which goal kinds were planned, which have no plan, and which were not tried.
 struct DryPlans {
   std::vector<PlannedKind> planned;
   std::vector<UnachievedKind> unachieved;

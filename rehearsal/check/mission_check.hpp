@@ -10,6 +10,7 @@
 
 namespace roci::rehearsal::check {
 
+/// Holds everything that was found wrong with a mission, and what was checked.
 struct CheckReport {
   mission::Findings findings;
   std::vector<std::string> scenarios;  ///< that were read
