@@ -20,7 +20,7 @@ using mission::words_of;
 
 namespace {
 
-// Ids become parts of PDDL names.
+// Returns whether the text can be a part of a PDDL name, as ids are.
 bool is_name(const std::string& text) {
   return !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) {
     return std::islower(c) || std::isdigit(c) || c == '-' || c == '_';
@@ -46,8 +46,8 @@ bool same_sender(const SampleId& one, const SampleId& other) {
   return one.sender == other.sender && one.incarnation == other.incarnation;
 }
 
-// Heard before the newest one, or said by a service that was started anew and says what it said
-// before: neither is a new wish.
+// Returns whether the request was heard before the newest one, or comes from a restarted service that
+// repeats itself: neither is a new wish.
 bool is_old(const GoalRecord& record, const GoalRequest& request) {
   const SampleId& sample = request.sample;
   const bool heard = std::ranges::any_of(record.before, [&](const SampleId& before) {
@@ -159,8 +159,8 @@ std::string GoalSet::fault_of_address(const GoalRequest& request) const {
          "'; name one of: " + (known.empty() ? role.robot : known);
 }
 
-// An argument that names another goal stands for that goal's objects: those of this goal's facts that hold
-// the argument must be among them.
+// Checks an argument that names another goal and so stands for that goal's objects: those of this goal's
+// facts that hold the argument must be among them.
 std::string GoalSet::fault_of_reference(const GoalRequest& request, const std::string& argument) const {
   const GoalKind& kind = mission_->goal_kinds.at(request.kind);
   const std::string& id = request.arguments.at(argument);
@@ -200,7 +200,8 @@ bool GoalSet::names(const GoalRequest& request, const GoalRequest& other) const 
 
 std::vector<GoalRequest> GoalSet::in_reference_order(std::vector<GoalRequest> requests) const {
   for (auto at = requests.begin(); at != requests.end(); ++at) {
-    // The first from here on that names none of the others; in a circle of names the one that is there.
+    // Finds the first from here on that names none of the others; in a cycle of names, the one that is
+    // there.
     const auto free = std::find_if(at, requests.end(), [&](const GoalRequest& one) {
       return std::none_of(at, requests.end(),
                           [&](const GoalRequest& other) { return &other != &one && names(one, other); });

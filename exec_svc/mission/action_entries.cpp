@@ -18,7 +18,7 @@ namespace {
 
 using roci::mission::Entry;
 
-// One of the words that may stand there.
+// Reads one of the permitted words.
 template <typename Meaning, std::size_t Count>
 Meaning read_word(const Entry& entry, const char* what,
                   const std::pair<const char*, Meaning> (&words)[Count]) {

@@ -16,7 +16,7 @@ namespace {
 
 using roci::mission::Entry;
 
-// "battery, reserve; did you mean 'battery'?"
+// Returns e.g. "battery, reserve; did you mean 'battery'?".
 std::string known_names(const std::string& word, const std::vector<std::string>& all) {
   std::string out;
   for (const std::string& one : all) out += (out.empty() ? "" : ", ") + one;
@@ -43,7 +43,7 @@ void require_symbol(const Entry& entry, const std::string& name, std::size_t arg
   }
 }
 
-// "(at ?1)": the first word is one of the symbols, the others are its arguments.
+// Requires of "(at ?1)" that the first word is one of the symbols and the others are its arguments.
 void require_symbol(const Entry& entry, const std::string& text, const std::vector<pddl::Signature>& symbols,
                     const std::string& what) {
   const auto words = words_of(text);

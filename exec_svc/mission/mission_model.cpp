@@ -107,7 +107,7 @@ WindowModel read_window(const Entry& entry, const MissionModel& mission) {
   return out;
 }
 
-// Of a budget; 0 where nothing is said.
+// Reads an amount of a budget, or returns 0 where none is given.
 double amount_or_none(const Entry& budget, const char* key, double most) {
   const auto entry = budget.find(key);
   if (!entry) return 0;
@@ -166,7 +166,7 @@ ReactorSettings read_executive(const Entry& entry) {
   return out;
 }
 
-// The planner's model, and what it means for the rest of the file.
+// Reads the planner's model, and what it means for the rest of the file.
 void read_model(const Entry& root, MissionModel& out) {
   const auto domain_file = root.find("domain");
   const auto model_file = root.find("model");
@@ -182,7 +182,7 @@ void read_model(const Entry& root, MissionModel& out) {
   out.domain_name = out.domain->name;
 }
 
-// Components of other robots stay until all names are read.
+// Removes the components of other robots, which stay until all names are read.
 void keep_own(std::vector<Component>& components, const std::string& robot) {
   std::erase_if(components,
                 [&](const Component& component) { return !robot.empty() && component.robot != robot; });

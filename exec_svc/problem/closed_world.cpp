@@ -110,7 +110,7 @@ void ClosedWorld::derive() {
   }
 }
 
-// Adds what the rule says of every choice of objects. True: something was new.
+// Adds what the rule says of every choice of objects. Returns whether something was new.
 bool ClosedWorld::fire(const pddl::DerivedPredicate& rule) {
   const std::size_t before = facts_.size();
   pddl::Atom head{rule.head.name, {}, {}};

@@ -39,7 +39,7 @@ temporal::Condition all_facts(const std::vector<std::string>& facts) {
   return parts.size() == 1 ? parts.front() : temporal::all_of(parts);
 }
 
-// PDDL knows no exponents.
+// Writes numbers without exponents, which PDDL lacks.
 void write_numbers_out(const GoalKind& kind, std::map<std::string, std::string>& values) {
   for (const auto& [name, argument] : kind.arguments) {
     std::string& text = values[name];
@@ -51,14 +51,14 @@ void write_numbers_out(const GoalKind& kind, std::map<std::string, std::string>&
   }
 }
 
-// A condition over timelines; what these cannot say, such as quantifiers, is one fact by its own text, as the engine
-// prints it when it says what is out of reach.
+// Returns the condition over timelines; what these cannot express, such as quantifiers, is one fact by its own
+// text, as the engine prints it when it names what is out of reach.
 temporal::Condition condition_of(const pddl::Condition& formula) {
   temporal::Condition out = mission::over_timelines(formula);
   return out.empty() ? temporal::compare(pddl::print(formula), temporal::ConditionOp::eq, true) : out;
 }
 
-// The kind's PDDL goal over timelines.
+// Returns the kind's PDDL goal over timelines.
 temporal::Condition pddl_goal(const MissionModel& mission, const GoalRequest& goal) {
   const GoalKind* kind = kind_of(mission, goal);
   if (kind == nullptr || !kind->formula) return all_facts(goal_facts(mission, goal));

@@ -22,7 +22,7 @@ GoalKey newest_hard(const GoalSet& goals) {
   return out;
 }
 
-/// Open goals that a proof blames, in the order of their arrival.
+/// Returns the open goals that a proof blames, in the order of their arrival.
 std::vector<GoalKey> blamed_goals(const PlanReply& reply, const GoalSet& goals) {
   std::vector<GoalKey> out;
   if (reply.verdict != Verdict::unsolvable) return out;
@@ -63,7 +63,7 @@ std::vector<RelaxationStep::Leaving> leaving(const PlanReply& reply, const GoalS
 
 }  // namespace
 
-// Of a goal that no proof blames nobody knows whether it would fit alone, so nothing is said of that.
+// Says nothing of whether a goal would fit alone that no proof blames, since nobody knows.
 std::string reason_to_leave(const PlanReply& reply, const GoalSet& goals, const GoalKey& key) {
   if (reply.verdict != Verdict::unsolvable)
     return std::string(to_string(reply.verdict)) + (reply.reason.empty() ? "" : ": " + reply.reason);

@@ -16,7 +16,7 @@ constexpr std::size_t kSetsOfOneSize = 10'000;
 
 using Records = std::vector<const GoalRecord*>;
 
-/// How many sets of `size` there are of `count` things, or more than kSetsOfOneSize.
+/// Returns how many sets of `size` there are of `count` things, or more than kSetsOfOneSize.
 std::size_t number_of_sets(std::size_t count, std::size_t size) {
   std::size_t out = 1;
   for (std::size_t i = 0; i < std::min(size, count - size) && out <= kSetsOfOneSize; ++i)
@@ -37,7 +37,7 @@ bool leaves_before(const WeighedSet& a, const WeighedSet& b) {
       [](const GoalRecord* goal) { return goal->arrival; });
 }
 
-/// Every set of `size` of these, which stand newest first.
+/// Returns every set of `size` of these goals, which stand newest first.
 std::vector<WeighedSet> sets_of(const Records& newest_first, std::size_t size) {
   std::vector<WeighedSet> out;
   std::vector<bool> chosen(newest_first.size(), false);

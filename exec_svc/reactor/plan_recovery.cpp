@@ -17,7 +17,7 @@ using temporal::Time;
 
 namespace {
 
-/// The goals that an activity works for: those it serves, else those of the next one that serves any.
+/// Returns the goals that an activity works for: those it serves, else those of the next one that serves any.
 std::vector<GoalKey> goals_behind(const temporal::FlexiblePlan& plan, const std::string& activity,
                                   const GoalSet& goals) {
   const auto failed = std::find_if(plan.activities.begin(), plan.activities.end(),
@@ -101,7 +101,8 @@ void PlanRecovery::break_plan(Time now, const std::string& reason) {
   safing_->make_safe(now, plan_->name() + " broke: " + reason);
 }
 
-/// A component that keeps failing gets ever more time to recover; in the end its goals are given up.
+/// Counts a failure. A component that keeps failing gets ever more time to recover; in the end its goals are
+/// given up.
 void PlanRecovery::count_failure(Time now, const Outcome& outcome) {
   const temporal::PlanActivity* activity = plan_->executive().activity(outcome.activity);
   if (activity == nullptr || activity->subsystem.empty()) return;

@@ -161,7 +161,7 @@ bool PlanningCycle::give_up_unseen() {
   return !unseen.empty();
 }
 
-/// Every open goal is in the plan: the planner was asked for all of them.
+/// Marks every open goal as planned, since the planner was asked for all of them.
 void PlanningCycle::note_planned() {
   std::string served;
   for (const GoalRecord* record : state_->goals.open()) {

@@ -106,7 +106,7 @@ void Reactor::take_services(const ReactorInputs& inputs) {
   }
 }
 
-/// What was on its way to owners and planner is asked for again.
+/// Asks again for what was on its way to owners and planner.
 void Reactor::resume(Time now) {
   MissionState& state = parts_->state;
   state.report(Severity::info, "executive.resumed",
@@ -133,7 +133,7 @@ bool Reactor::at_rest() const {
 
 namespace {
 
-/// What each part keeps of itself, in one order for both ways.
+/// Lists what each part keeps of itself, in one order for both ways.
 template <class Archive, class Parts>
 void part_fields(Archive& archive, Parts& parts) {
   MissionState::fields(archive, parts.state);

@@ -11,7 +11,8 @@ using executive::OutcomeKind;
 
 namespace {
 
-// So often a fall-back is sent again in a later epoch; each time the executive has learned one.
+// Bounds how often a fall-back is sent again in a later epoch, of which the executive has learned by each
+// refusal.
 constexpr std::uint32_t kRefusals = 8;
 
 }  // namespace
@@ -151,7 +152,7 @@ void Safing::confirm(temporal::Time now) {
   }
 }
 
-/// What is not known yet of a safe robot, in plain words; empty: nothing.
+/// Returns in plain words what is missing until the robot counts as safe, or an empty text if nothing is.
 std::string Safing::missing() const {
   std::string out;
   const auto add = [&](const std::string& what) { out += (out.empty() ? "" : ", ") + what; };

@@ -18,7 +18,7 @@ namespace topics = services::topics;
 namespace {
 
 constexpr Moment kHandOverAgain = std::chrono::seconds(1);
-// Who gave an order and is still there has said it to the leader by then.
+// Bounds the time in which givers of orders that are still there repeat them to the leader.
 constexpr Moment kOrdersHeard = std::chrono::seconds(5);
 constexpr std::size_t kToldOrders = 20;  // one by one
 constexpr std::size_t kToldToLack = 64;  // lines of the log, for one follower
@@ -79,7 +79,7 @@ void FollowerService::take(const Chunk& chunk) {
   if (taken != JournalCopy::Result::known) say();
 }
 
-// Until the copy of the leader's journal shows that it has them.
+// Hands goals over until the copy of the leader's journal shows that the leader has them.
 void FollowerService::hand_over() {
   if (handed_over_.empty() || moment() - handed_over_at_ < kHandOverAgain) return;
   handed_over_at_ = moment();
@@ -88,7 +88,7 @@ void FollowerService::hand_over() {
   for (const GoalRecord& goal : handed_over_) goals_.write(to_wire(goal, executive_, lease_->self()));
 }
 
-// They are not merged (orders_apart.hpp).
+// Reports orders that the leader lacks; they are not merged (orders_apart.hpp).
 void FollowerService::tell_lost_orders() {
   if (apart_orders_.empty() || (!lead_ && moment() - orders_replaced_at_ < kOrdersHeard)) return;
   const auto lost = unknown_orders(std::exchange(apart_orders_, {}), *journal_);
@@ -118,7 +118,8 @@ void FollowerService::turn() {
   node_.stop();
 }
 
-// Once for the same owners: who has a part gives it back and asks again, for as long as the others are away.
+// Reports missing leases once for the same owners: a member that holds a part gives it back and asks again
+// for as long as the others are away.
 void FollowerService::tell_what_it_lacks(const Lease::Turn& turn) {
   const std::string lacks = turn.lacks + (turn.doubtful ? " in doubt" : "");
   if (turn.lacks.empty() || told_to_lack_.size() >= kToldToLack || !told_to_lack_.insert(lacks).second)
