@@ -17,7 +17,7 @@
 
 namespace roci::sim::wire {
 
-/// These translate what comes in.
+/// Translate what comes in.
 world::TaskKey task_key(const services::owner::CommandKey&);
 services::owner::CommandKey command_key(const world::TaskKey&);
 world::Order order_of(const services::owner::Request&);
@@ -27,7 +27,7 @@ world::Way way_of(const v1::PathReply&);
 world::DownlinkSchedule schedule_of(const v1::DownlinkSchedule&);
 world::Trajectory trajectory_of(const v1::ArmMotionReply&);
 
-/// These translate what goes out.
+/// Translate what goes out.
 v1::Observation to_wire(const world::Observed&);
 v1::DataProduct to_wire(const world::Image&);
 v1::DataProduct to_wire(const world::Product&);
@@ -39,7 +39,7 @@ v1::TerrainFinding finding_of(const world::SoilMarked&);
 v1::PathRequest to_wire(const world::PathWanted&);
 v1::ArmMotionRequest to_wire(const world::MotionWanted&);
 v1::Goal to_wire(const scenario::GoalStimulus&, bool recalled);
-/// The content goes as it is in the file, damaged or not.
+/// Sends the content as it is in the file, damaged or not.
 v1::NetworkOrder to_wire(const scenario::NetworkStimulus&);
 v1::Order to_wire(const scenario::OrderStimulus&);
 v1::Event event(v1::Severity, const std::string& code, const std::string& text);

@@ -1,6 +1,6 @@
-// How an arm with motors, inertia and friction moves along a trajectory (type `dynamic_arm`): a controller that
-// believes one load drives a rigid body that has another, so that durations and energies are what comes of it, not what
-// was planned. It is integrated whole, in steps of its own, so that nothing depends on how time is sliced.
+// An arm with motors, inertia and friction (type `dynamic_arm`) moves along a trajectory by a controller that believes
+// in one load while the rigid body has another, so that durations and energies follow from the motion and not from the
+// plan. The motion is integrated whole, in steps of its own, so that nothing depends on how time is sliced.
 #pragma once
 
 #include <cstddef>

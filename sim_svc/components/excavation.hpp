@@ -1,5 +1,5 @@
-// Cutting a trench into ice as hard as rock: how deep it is follows from the energy that the
-// cutter has brought into it.
+// A trench is cut into ice as hard as rock: its depth follows from the energy that the cutter has brought
+// into the ice.
 #pragma once
 
 #include <optional>

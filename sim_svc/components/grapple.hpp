@@ -1,5 +1,5 @@
-// A grapple at the tool of an arm, and what it works on: a structure of slots that hold modules. It knows what truly is
-// (masses, blocked slots, latches that need a second try) and reports what the robot can know of it.
+// This is a grapple at the tool of an arm, and what it works on: a structure of slots that hold modules. It knows the
+// truth (masses, blocked slots, latches that need a second try) and reports what the robot can know of it.
 #pragma once
 
 #include <cstdint>
@@ -75,7 +75,7 @@ class Grapple final : public world::Component,
   world::Ending begin(const world::Task&, temporal::Time now, world::Surroundings&) override;
   std::optional<temporal::Time> next_change() const override;
   world::Ending finish(world::Surroundings&) override;
-  /// Leaves all as it was before the work.
+  /// Stops the work and leaves all as it was before.
   void halt(temporal::Time, world::Surroundings&) override { work_.reset(); }
   void settle(temporal::Time now, world::Body&) override;
   std::optional<std::string> spared_from(const world::Mishap&) const override;
@@ -86,7 +86,7 @@ class Grapple final : public world::Component,
   /// Returns fix, module.<m>, health.<m> and slot.<s> as they are reported.
   std::vector<world::NamedState> states() const override;
   std::optional<std::uint64_t> states_version() const override;
-  /// Returns, of a place, as `tries` how often the latch was tried.
+  /// Returns, after a place, as `tries` how often the latch was tried.
   std::map<std::string, temporal::Value> results() const override { return results_; }
   world::Memory memory() const override;
   void restore(const world::Memory&) override;

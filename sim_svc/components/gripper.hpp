@@ -1,4 +1,4 @@
-// A gripper that picks samples up and drops them, at the places and poses where that is possible.
+// This is a gripper that picks samples up and drops them, at the places and poses where that is possible.
 #pragma once
 
 #include <map>

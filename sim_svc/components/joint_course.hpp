@@ -1,4 +1,4 @@
-// The course that an arm's controller follows: a smooth curve through the points of a trajectory.
+// A joint course is what an arm's controller follows: a smooth curve through the points of a trajectory.
 #pragma once
 
 #include <cstddef>

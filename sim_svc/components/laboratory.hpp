@@ -1,4 +1,4 @@
-// A laboratory on board, whose instruments look at a sample one after the other and say whether it
+// This is a laboratory on board, whose instruments analyse a sample one after the other and say whether it
 // has a signature of life.
 #pragma once
 

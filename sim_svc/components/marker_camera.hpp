@@ -1,4 +1,4 @@
-// A camera that looks for the marker of another robot and works out from it where that one stands.
+// This is a camera that looks for the marker of another robot and works out from it where that robot stands.
 #pragma once
 
 #include <map>

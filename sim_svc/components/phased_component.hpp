@@ -1,4 +1,4 @@
-// What components have in common whose tasks run through phases.
+// This is what components share whose tasks run through phases.
 #pragma once
 #include <optional>
 #include <string>

@@ -1,4 +1,4 @@
-// The data products that a component's commands make, as its settings describe them.
+// This file makes the data products of a component's commands, as its settings describe them.
 #pragma once
 
 #include <map>

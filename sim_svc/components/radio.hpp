@@ -1,4 +1,4 @@
-// A radio that sends images to the other side, as long as the window to it is open.
+// This is a radio that sends images to the other side as long as the window to it is open.
 #pragma once
 
 #include <map>

@@ -1,4 +1,4 @@
-// The simulated ground in the detail that a camera sees.
+// The relief is the simulated ground in the detail that a camera sees.
 #pragma once
 #include <cstdint>
 #include <vector>

@@ -1,4 +1,4 @@
-// A seismometer, which records quakes beside all other work until it is parked.
+// This is a seismometer, which records quakes beside all other work until it is parked.
 #pragma once
 
 #include <map>

@@ -1,4 +1,5 @@
-/// What a light robot measures of the soil while it drives, to say whether a heavier one may follow.
+// A soil sensor is what a light robot measures soil with while it drives, to say whether a heavier one may
+// follow.
 #pragma once
 #include <optional>
 #include <string>
@@ -33,9 +34,9 @@ struct SoilSensorSettings {
 
 /// Gives the verdict that the vehicle must not go there.
 struct NoGo {
-  terrain::Point at;  ///< that was measured
+  terrain::Point at;  ///< point that was measured
   std::string instrument;
-  Footing expected;  ///< of the vehicle, as the measurement has it
+  Footing expected;  ///< footing of the vehicle, by the measurement
 };
 
 /// Describes a disc on the map.
@@ -56,7 +57,7 @@ struct SoilRecord {
 /// on the steepest line of the slope there.
 class SoilSensor {
  public:
-  /// `known` are discs in which a No-Go is no news. All must outlive it.
+  /// Ignores a No-Go in the discs `known`, where it is no news. All arguments must outlive this object.
   SoilSensor(const SoilSensorSettings&, const std::vector<MarkedDisc>& known, world::RandomStream& noise);
 
   /// Measures what is due after `moved_m` more metres, the last of them to this pose. Returns the first No-Go.

@@ -1,4 +1,4 @@
-// A camera on a lander that looks for places to dig and to sample, and takes panoramas.
+// This is a camera on a lander that looks for places to dig and to sample, and takes panoramas.
 #pragma once
 
 #include <map>

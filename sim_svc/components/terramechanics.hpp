@@ -1,4 +1,5 @@
-/// What loose soil does to a vehicle on rigid wheels: how deep it sinks, what it must push, how much it slips.
+// Terramechanics says what loose soil does to a vehicle on rigid wheels: how deep it sinks, what it must push,
+// how much it slips.
 #pragma once
 #include "sim_svc/world/soil.hpp"
 

@@ -1,4 +1,4 @@
-// Stimuli of a scenario file that concern a robot's energy, heat and view.
+// This file reads stimuli of a scenario that concern a robot's energy, heat and view.
 #pragma once
 #include "core/mission/entry.hpp"
 #include "sim_svc/setup/roster_file.hpp"

@@ -1,4 +1,4 @@
-// The events that a scenario expects, compared with those that come.
+// The events that a scenario expects are compared with those that come.
 #pragma once
 #include <cstddef>
 #include <set>

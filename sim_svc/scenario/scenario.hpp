@@ -1,4 +1,5 @@
-// A scenario as values: how a run starts, what is done to it at which time, and which events are expected of it.
+// A scenario is made of values: how a run starts, what is done to it at which time, and which events are
+// expected of it.
 #pragma once
 
 #include <cstdint>
@@ -25,7 +26,7 @@ struct GoalStimulus {
   std::string issuer;
   std::string id;
   std::string kind;
-  std::string robot;  ///< that is to achieve it; empty: the only one
+  std::string robot;  ///< robot that is to achieve it; empty: the only one
   Importance importance = Importance::optional;
   std::vector<double> utility{1};  ///< by rank, the highest first
   std::int32_t priority = 0;
@@ -33,22 +34,22 @@ struct GoalStimulus {
   temporal::Time opens{};   ///< 0: any time
   temporal::Time closes{};  ///< 0: none
   std::vector<std::pair<std::string, std::string>> arguments;
-  std::optional<mission::Entry> entry{};  ///< is where it stands in the file
+  std::optional<mission::Entry> entry{};  ///< where it stands in the file
 };
 
-/// The issuer takes a goal back.
+/// Lets the issuer recall a goal.
 struct RecallStimulus {
   std::string issuer;
   std::string id;
 };
 
-/// The ground knows of an obstacle and tells those who keep a map.
+/// Lets the ground tell those who keep a map of an obstacle.
 struct HazardStimulus {
   std::string id;
   world::Rock rock;
 };
 
-/// The ground replaces the network of a planner, or sets a parameter of it.
+/// Lets the ground replace the network of a planner, or set one of its parameters.
 struct NetworkStimulus {
   std::string issuer;
   std::string id;
@@ -58,7 +59,7 @@ struct NetworkStimulus {
   double value = 0;
 };
 
-/// What the ground may order; the words are those of `roci order`.
+/// Names what the ground may order; the words are those of `roci order`.
 enum class OrderKind { hold, release, approve, set_value, autonomy, answer, drop, relaunch, safe, command };
 
 /// Describes an order of the ground to an executive (docs/orders.md); which of the members count depends on
@@ -87,7 +88,7 @@ struct Stimulus {
 /// Says how a robot begins.
 struct Start {
   std::optional<world::Pose> pose;
-  std::optional<mission::Entry> pose_entry;  ///< is where it stands in the file
+  std::optional<mission::Entry> pose_entry;  ///< where it stands in the file
   std::optional<double> battery_j;
   std::map<std::string, mission::Entry> components;  ///< component → what its type makes of it
 };

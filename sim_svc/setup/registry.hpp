@@ -1,4 +1,4 @@
-// The component types that a mission may name, and who reads their settings.
+// The registry has the component types that a mission may name, and who reads their settings.
 #pragma once
 #include <functional>
 #include <map>

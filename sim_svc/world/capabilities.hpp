@@ -1,6 +1,6 @@
-// Components of one robot know of each other not who is there, but what somebody there can do. A component
-// implements those capabilities that are true of it; the others find it by them (ComponentSet), whatever its
-// name and type.
+// Components of one robot know of each other by what somebody can do, not by who is there. A component
+// implements the capabilities that it has; the others find it by them (ComponentSet), whatever its name and
+// type.
 #pragma once
 
 #include <optional>

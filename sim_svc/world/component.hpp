@@ -22,12 +22,12 @@ namespace roci::sim::world {
 
 /// Holds what a component may see and change outside itself while it acts.
 struct Surroundings {
-  const std::string& robot;  ///< is the one whose part it is
+  const std::string& robot;  ///< robot whose part it is
   Environment& environment;
   Body& body;
-  const ComponentSet& components;  ///< are those of the same robot, itself included
+  const ComponentSet& components;  ///< components of the same robot, itself included
   Outputs& out;
-  std::vector<PhysicalEffect> effects{};  ///< takes what the component does to the world
+  std::vector<PhysicalEffect> effects{};  ///< what the component does to the world
 };
 
 /// Describes a command of a component with the arguments that it needs.
@@ -112,16 +112,16 @@ class Component {
   /// Does of its own accord what is due. It is called after the tasks at every event of the world, and passes a turn
   /// over while it is not `able` (out of order, battery empty); afterwards next_routine() lies after `now`.
   virtual void run_routine(temporal::Time /*now*/, bool /*able*/, Surroundings&) {}
-  /// Lets its tasks get on at this share of their usual speed until then; a component that cannot be slowed
-  /// (ComponentType::can_be_slowed) does not hear of it.
+  /// Slows its tasks to this share of their usual speed until then; it is not called for a component that
+  /// cannot be slowed (ComponentType::can_be_slowed).
   virtual void slow_down(double /*pace*/, temporal::Time /*until*/, temporal::Time /*now*/, Surroundings&) {}
-  /// Lets the next success of the command be told without being true: time and energy are used, and nothing else has
-  /// changed; a component that cannot do so (ComponentType::can_be_hollow) does not hear of it.
+  /// Makes the next success of the command hollow: time and energy are used, and nothing else changes. It is not
+  /// called for a component that cannot do so (ComponentType::can_be_hollow).
   virtual void hollow_next(const std::string& /*command*/) {}
   /// Takes in which data are to go with which downlink from now on.
   virtual void heed(const DownlinkSchedule&) {}
-  /// Lets data go at this share of the usual rate from now on; a component without a rate (ComponentType::has_rate)
-  /// does not hear of it.
+  /// Sends data at this share of the usual rate from now on; it is not called for a component without a rate
+  /// (ComponentType::has_rate).
   virtual void change_rate(double /*factor*/, temporal::Time /*now*/) {}
   /// Breaks the running task off at once.
   virtual void halt(temporal::Time now, Surroundings&) = 0;
@@ -143,9 +143,9 @@ class Component {
   virtual std::vector<std::string> zones() const { return {}; }
   /// Returns the zone that it keeps warm for work now, whose heater then counts as its task's; empty: none.
   virtual std::string held_zone() const { return {}; }
-  /// Takes in that a window, or the heat of the body, is another one from now on than was to be foreseen.
+  /// Takes in that a window, or the heat of the body, differs from now on from what could be foreseen.
   virtual void surroundings_changed(temporal::Time /*now*/, Surroundings&) {}
-  /// Takes in that the ground is another one from now on.
+  /// Takes in that the ground has changed.
   virtual void ground_changed(temporal::Time /*now*/, Surroundings&) {}
 
   /// Returns what the running task uses in [from, to), in J; if it is negative, it charges the battery.

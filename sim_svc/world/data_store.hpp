@@ -1,4 +1,4 @@
-/// What a robot has measured and not yet brought home.
+// The data store holds what a robot has measured and not yet brought home.
 #pragma once
 #include <cstdint>
 #include <map>

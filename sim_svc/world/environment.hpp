@@ -1,4 +1,5 @@
-/// What surrounds the robots of a simulated world and is the same for all: ground, rocks, windows of time.
+// The environment surrounds the robots of a simulated world and is the same for all: ground, rocks, windows
+// of time.
 #pragma once
 #include <cstddef>
 #include <map>

@@ -1,4 +1,4 @@
-// Cases for std::visit.
+// This file joins cases for std::visit.
 #pragma once
 
 namespace roci::sim::world {

@@ -1,4 +1,4 @@
-// Noise that is the same for the same seed, whatever else is drawn.
+// Noise is the same for the same seed, whatever else is drawn.
 #pragma once
 #include <cstdint>
 #include <random>

@@ -1,4 +1,5 @@
-/// Loose ground that no map shows and no camera sees: what a wheel finds under it. Only the world knows where it lies.
+// Soil here is loose ground that no map shows and no camera sees: what a wheel finds under it. Only the world knows
+// where it lies.
 #pragma once
 #include <cstdint>
 #include <map>
@@ -32,7 +33,7 @@ struct SoilArea {
   bool operator==(const SoilArea&) const = default;
 };
 
-/// Says whether the point lies in the area.
+/// Returns whether the point lies in the area.
 bool contains(const SoilArea&, terrain::Point);
 
 /// Lets the run's seed place circles of a soil, anywhere in a box but not over certain discs.
@@ -54,8 +55,8 @@ struct SoilLayer {
 /// Returns the soil at the point, or null where the ground is firm. The areas' soils are all known.
 const Soil* soil_at(const SoilLayer&, terrain::Point);
 
-/// Turns what is to be scattered into areas: the same for the same layer and seed. A circle that finds no room in a
-/// hundred tries is left out.
+/// Scatters soil into areas, the same for the same layer and seed. A circle that finds no room in a hundred tries
+/// is left out.
 void scatter(SoilLayer&, std::uint64_t seed);
 
 }  // namespace roci::sim::world

@@ -1,5 +1,5 @@
-/// How the ground looks to a camera (what lights it, and what on it is unlike the rest; nobody drives differently for
-/// it), and the soil that no camera sees.
+// The surface is how the ground looks to a camera (what lights it, and what on it is unlike the rest; nobody drives
+// differently for it), and the soil that no camera sees.
 #pragma once
 #include <cstdint>
 #include <vector>

@@ -29,7 +29,7 @@ struct TaskKey {
   std::string activity;
   std::uint32_t attempt = 0;
   std::string commander{};  ///< empty where commanders are not told apart
-  std::uint64_t epoch = 0;  ///< is the commander's when it first issued the command
+  std::uint64_t epoch = 0;  ///< commander's epoch when it first issued the command
   auto operator<=>(const TaskKey&) const = default;
 };
 
@@ -38,8 +38,8 @@ struct Task {
   TaskKey key;
   std::string command;
   std::map<std::string, std::string> arguments;
-  /// Bounds a repair: a component that repairs something by itself is done with it by then (R146). If it is
-  /// empty, it takes its time.
+  /// Bounds a repair: a component that repairs something by itself is done with it by then (R146). Empty:
+  /// there is no bound.
   std::optional<temporal::Time> latest_end{};
 };
 
@@ -53,11 +53,11 @@ struct Failure {
 /// Says how a running task ended by itself; it succeeded if this is empty.
 using Ending = std::optional<Failure>;
 
-/// Says what became of a task. One that is `repairing` (R146) goes on, after a trouble that its component
-/// sees to.
+/// Says what became of a task. One that is `repairing` (R146) goes on while its component deals with a
+/// trouble.
 enum class TaskStage { accepted, rejected, repairing, completed, failed, cancelled };
 
-/// Holds what a task came to that ran and ended.
+/// Holds the results of a task that ran and ended.
 struct Results {
   temporal::Duration duration{};                  ///< runs from its begin to its end
   double energy_j = 0;                            ///< that its component used for it
@@ -72,8 +72,8 @@ struct PhysicalEffect {
   std::string object;  ///< that it was done to
 };
 
-/// Holds such an effect with what caused it. All effects in a world are told, whoever was behind the command: what
-/// an owner's rules let pass is seen here, not what it was asked for (bench/kill counts them).
+/// Holds such an effect with its cause. All effects in a world are reported, whoever sent the command: they show
+/// what an owner's rules let pass, not what the owner was asked for (bench/kill counts them).
 struct Effect {
   temporal::Time at{};
   std::string robot;
@@ -91,7 +91,7 @@ struct TaskReport {
   std::string code;
   std::string reason;
   temporal::Time at{};
-  std::optional<Results> results{};  ///< are set for a task that ran and ended
+  std::optional<Results> results{};  ///< set for a task that ran and ended
   bool operator==(const TaskReport&) const = default;
 };
 
@@ -133,7 +133,7 @@ struct RockSeen {
 /// Describes ground that a robot has measured and that somebody must not drive over, as a circle.
 struct SoilMarked {
   std::string id;
-  std::string robot;  ///< that has found it
+  std::string robot;  ///< robot that has found it
   std::string instrument;
   std::string judged_for;  ///< who must not go there
   double x = 0;            ///< m
@@ -168,7 +168,7 @@ struct MotionWanted {
   bool operator==(const MotionWanted&) const = default;
 };
 
-/// A Product says what has become of it by now.
+/// Holds one output of the world; a Product says what has become of it by now.
 using Output =
     std::variant<TaskReport, Observed, Image, RockSeen, PathWanted, MotionWanted, Product, SoilMarked>;
 using Outputs = std::vector<Output>;

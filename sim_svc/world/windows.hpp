@@ -1,4 +1,4 @@
-// Timelines that are true in given intervals, such as a relay above the horizon.
+// Windows are timelines that are true in given intervals, such as a relay above the horizon.
 #pragma once
 #include <optional>
 #include <string>
