@@ -1,4 +1,4 @@
-// A plan taken apart for the checker, by the names of the model.
+// A version is a plan taken apart for the checker, by the names of the model.
 #pragma once
 
 #include <map>
@@ -19,7 +19,7 @@ using temporal::Duration, temporal::TimePoint, temporal::to_text;
 
 using Faults = std::vector<std::string>;
 using Schedule = std::vector<Duration>;  ///< the time of each point
-/// The objects of variables, kNone where one is free.
+/// Holds the objects of variables, kNone where one is free.
 using Binding = std::vector<Index>;
 inline constexpr Index kNone = ~Index{0};
 

@@ -1,4 +1,4 @@
-// What roci-timelines does with a model, apart from its command line.
+// These are the commands of roci-timelines, apart from its command line.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// The choices that a plan leaves open to whoever resolves them at run time (R131).
+// This file extracts the choices that a plan leaves open to whoever resolves them at run time (R131).
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
-// Everything that a model must fulfil before it is planned with, told at once: one plain sentence for each fault, with
-// the part of the model and what to do about it.
+// The check of a model reports at once everything that the model must fulfil before it is planned with: one plain
+// sentence for each fault, with the part of the model and the remedy.
 #pragma once
 
 #include <string>

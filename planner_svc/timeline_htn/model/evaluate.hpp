@@ -1,4 +1,4 @@
-// Expressions and static tests with objects in place of variables.
+// This file evaluates expressions and static tests with objects in place of variables.
 #pragma once
 
 #include <compare>

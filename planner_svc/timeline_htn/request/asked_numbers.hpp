@@ -1,5 +1,5 @@
-// Numbers of a model that services give (R35, R36): asked for before the search, table by table,
-// through the port that every engine has.
+// This file asks services for numbers of a model (R35, R36) before the search, table by table, through the
+// port that every engine has.
 #pragma once
 
 #include <functional>

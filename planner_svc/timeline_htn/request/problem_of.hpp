@@ -1,4 +1,5 @@
-// A request as the engine's own problem: where the components are by what is observed, and what is asked for.
+// This file makes of a request the engine's own problem: where the components are by what is observed, and
+// what is asked for.
 #pragma once
 
 #include <optional>

@@ -1,5 +1,5 @@
-// How early the goals can come about by what is predicted, whatever else is planned:
-// a proof that one comes too late, without a search.
+// Earliest times say how early the goals can come about by what is predicted, whatever else is planned: a
+// proof, without a search, that one comes too late.
 #pragma once
 
 #include <optional>

@@ -1,4 +1,5 @@
-// States with objects in place of parameters, made when they are first met, and what may follow them.
+// Ground states have objects in place of parameters; they are made when they are first met, with what may
+// follow them.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// A simple temporal network that a search builds and takes back: earliest times and consistency.
+// This is a simple temporal network that a search builds and takes back: earliest times and consistency.
 #pragma once
 
 #include <cstdint>

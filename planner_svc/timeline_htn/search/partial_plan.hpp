@@ -1,4 +1,4 @@
-// A plan while it is built: timelines that grow at their ends, the hierarchy above them,
+// A partial plan is a plan while it is built: timelines that grow at their ends, the hierarchy above them,
 // what is still to be done, and time.
 #pragma once
 

@@ -1,4 +1,5 @@
-// The relaxed problem that is followed to prove that there is no plan (relaxed_reachability.hpp).
+// The relaxation is the relaxed problem that is followed to prove that there is no plan
+// (relaxed_reachability.hpp).
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// Several searches side by side (R132): the first among them by work, not by time, gives the plan.
+// Several searches run side by side (R132): the first among them by work, not by time, gives the plan.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
-// The search of the hierarchical timeline engine: forward in time from the initial state (R133),
-// hierarchy built and kept (R130).
+// The search of the hierarchical timeline engine goes forward in time from the initial state (R133), and
+// builds and keeps the hierarchy (R130).
 #pragma once
 
 #include <cstdint>
@@ -79,7 +79,8 @@ class Search {
 
   /// Goes on until it is solved or exhausted, or so many steps were tried in all.
   Outcome run(std::uint64_t evaluations, std::size_t memory_bytes, const std::function<bool()>& cancelled);
-  /// From now on only the search itself proves anything: what the relaxed reachability is compared with.
+  /// Lets only the search itself prove anything from now on, so that the relaxed reachability can be compared
+  /// with it.
   void prove_by_search_alone() { looked_at_ = true; }
   Outcome state() const { return state_; }
   const Count& count() const { return count_; }
@@ -89,7 +90,7 @@ class Search {
   const Bindings& bindings() const { return bindings_; }
   /// Returns, with exhausted, what the search that came farthest met, in words.
   std::string reason() const;
-  /// The goal for which it says so; kNone: none in particular.
+  /// Returns the goal of which reason() speaks; kNone: none in particular.
   Index blocking_goal() const;
 
  private:

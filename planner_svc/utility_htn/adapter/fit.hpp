@@ -1,4 +1,4 @@
-// A plan that was made with another network than the one in force: what of it the latter can go on with.
+// This file finds what of a plan made with another network the network in force can go on with.
 #pragma once
 
 #include <cstdint>

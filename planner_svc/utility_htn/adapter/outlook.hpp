@@ -1,5 +1,5 @@
-// What the engine expects of its plan, for operators and for whoever sends data: the downlink schedule, utility by
-// rank, energy, and the science subway map (R110–R115, R127).
+// The outlook is what the engine expects of its plan, for operators and for whoever sends data: the downlink
+// schedule, utility by rank, energy, and the science subway map (R110–R115, R127).
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// The utility-driven engine as planner_svc steps it (R66, R77–R81): it hears observations, goals and what became of
-// tasks, runs its cycle at the process interval, and sends versions of its plan.
+// This is the utility-driven engine as planner_svc steps it (R66, R77–R81): it hears observations, goals and what
+// became of tasks, runs its cycle at the process interval, and sends versions of its plan.
 #pragma once
 
 #include <map>

@@ -34,15 +34,15 @@ struct Context {
   std::span<const model::TaskIndex> closed;   ///< requests that are done, failed for good or withdrawn
 };
 
-/// Predicts chains again and again while nothing but what is planned changes, as in a search: what else a prediction
-/// depends on is looked at once.
+/// Predicts chains again and again while only the plan changes, as in a search: what else a prediction depends on is
+/// read once.
 class Forecast {
  public:
   virtual ~Forecast() = default;
 
-  /// Takes what is planned from here on, in the order of starts.
+  /// Takes the plan from here on, in the order of starts.
   virtual void plan(std::span<const std::uint32_t> planned) = 0;
-  /// Takes one chain more, which starts after all that is planned.
+  /// Takes one more chain, which starts after all that is planned.
   virtual void plan_next(std::uint32_t chain) = 0;
   /// Returns what Assessor::predicted() does after what is planned; where that breaks a rule of the mission, perhaps
   /// another vector that does.

@@ -1,4 +1,4 @@
-// The science subway map: which target is sampled next (MEXEC, section II.B.2 and figure 3, R112).
+// The science subway map says which target is sampled next (MEXEC, section II.B.2 and figure 3, R112).
 #pragma once
 
 #include <cstdint>

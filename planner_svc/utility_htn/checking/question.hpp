@@ -1,4 +1,4 @@
-// What the independent checker is asked: one version of a plan, what was there before, and what was observed. It is
+// The independent checker is asked about one version of a plan, what was there before, and what was observed. It is
 // told in types of its own, so that no mistake of the planner can hide in a shared one.
 #pragma once
 

@@ -1,4 +1,4 @@
-// A plan version as the executive is told it, taken apart for the independent checker.
+// A version is a plan version as the executive is told it, taken apart for the independent checker.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// The chains of a network as a table, and as JSON.
+// This file writes the chains of a network as a table, and as JSON.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// What roci-network does with a task network, apart from its command line.
+// These are the commands of roci-network, apart from its command line.
 #pragma once
 
 #include <filesystem>

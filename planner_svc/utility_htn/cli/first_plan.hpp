@@ -1,5 +1,5 @@
-// The plan that the planner would begin with, and why what is not in it is not (R119):
-// for authors, before anything flies.
+// The first plan is the one that the planner would begin with; this file also says why what is not in it is
+// not (R119), for authors, before anything flies.
 #pragma once
 
 #include <cstdint>

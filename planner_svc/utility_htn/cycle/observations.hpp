@@ -1,5 +1,5 @@
-// What is observed of timelines, held against what was foreseen (R76, R102): when a better plan may exist, and which
-// observation stands where a command that was to change a timeline has not been confirmed.
+// Observations of timelines are compared with what was foreseen (R76, R102): they tell when a better plan may exist,
+// and which observation counts where a command that was to change a timeline has not been confirmed.
 #pragma once
 
 #include <map>

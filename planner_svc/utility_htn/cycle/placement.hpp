@@ -1,4 +1,5 @@
-// What a planning cycle has placed: blocks of primitive tasks, one block for each chain that was chosen.
+// The placement of a planning cycle consists of blocks of primitive tasks, one block for each chain that was
+// chosen.
 #pragma once
 
 #include <cstdint>

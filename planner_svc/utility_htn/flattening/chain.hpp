@@ -27,7 +27,7 @@ struct Chains {
   std::vector<std::vector<std::uint32_t>> by_batch;  ///< indices of chains
 };
 
-/// The most chains that one requested task may have, since their number is a product.
+/// Bounds the chains of one requested task, since their number is a product.
 inline constexpr std::size_t kMostChains = model::kMostChains;
 
 /// Flattens all that is requested. Throws std::invalid_argument with the task's id for one with more than kMostChains;
@@ -47,7 +47,7 @@ std::set<model::TaskIndex> templates_on_call(const model::Network& network);
 temporal::timelines::Footprint footprint(const model::Network& network, const Chain& chain, std::size_t link,
                                          const model::Values& values);
 
-/// Sums over the links (R92).
+/// Sum cost and utility over the links (R92).
 double cost(const model::Network& network, const Chain& chain, const model::Values& values);
 temporal::RankVector utility(const model::Network& network, const Chain& chain, const model::Values& values);
 

@@ -1,4 +1,4 @@
-// Which requests nothing leads to any more, whatever is planned (R112, R117).
+// This file finds the requests that nothing leads to any more, whatever is planned (R112, R117).
 #pragma once
 
 #include <set>

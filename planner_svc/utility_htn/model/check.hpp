@@ -1,5 +1,5 @@
-// Everything that a network must fulfil before it is used (R78, R83), told at once: one plain sentence for each fault,
-// with the part of the network and what to do about it.
+// The check of a network reports at once everything that the network must fulfil before it is used (R78, R83): one
+// plain sentence for each fault, with the part of the network and the remedy.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,5 @@
-// Data that a mission generates, as the search, the Downlink Manager and what joins them speak of it.
+// Data products are data that a mission generates, in a form that the search, the Downlink Manager and the
+// delivery share.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// How many chains the parents of a network have, told without making them.
+// This file counts the chains of a network's parents without making them.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,5 @@
-// The small languages inside of a network file: sums for numbers, and comparisons for constraints.
+// This file reads the small languages inside of a network file: sums for numbers, and comparisons for
+// constraints.
 #pragma once
 
 #include <string>

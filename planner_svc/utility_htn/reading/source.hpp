@@ -1,4 +1,5 @@
-// An entry of a network file together with the words that stand for others in it: "{site}" in every text and key.
+// A source is an entry of a network file together with the words that stand for others in it: "{site}" in every
+// text and key.
 #pragma once
 
 #include <functional>

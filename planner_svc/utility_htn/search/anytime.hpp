@@ -1,4 +1,4 @@
-// A search that gives a plan early and better ones later, and says how far from the best possible it may be.
+// This search gives a plan early and better ones later, and says how far from the best possible it may be.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,5 @@
-// Partial plans as compact nodes: each holds one chain with its starts and the plan that it extends.
+// The node store keeps partial plans as compact nodes: each holds one chain with its starts and the plan that
+// it extends.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// Plans that are judged by what is left of them when tasks need more or less energy than predicted.
+// Robust plans are judged by what is left of them when tasks need more or less energy than predicted.
 #pragma once
 
 #include <cstdint>

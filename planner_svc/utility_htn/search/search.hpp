@@ -1,4 +1,4 @@
-// The utility-maximizing search over partial plans (MEXEC, section III.A and algorithm 1, R93–R97,
+// This is the utility-maximizing search over partial plans (MEXEC, section III.A and algorithm 1, R93–R97,
 // with the readings Z7, Z8 and Z12).
 #pragma once
 
@@ -54,7 +54,7 @@ using DownlinkQuestion = std::function<bool(const PlannedData&)>;
 /// sol has a limit of its own (R111); none: at no other time.
 using LaterDownlinks = std::function<std::optional<temporal::Time>(const PlannedData&)>;
 
-/// So many sols are tried for the downlinks of one chain.
+/// Bounds the sols that are tried for the downlinks of one chain.
 inline constexpr int kMostSols = 4;
 
 /// Says what is to be planned. All that it refers to outlives it.
@@ -96,7 +96,7 @@ struct Plan {
 
 /// Counts what a search did.
 struct Statistics {
-  /// Pairs of the empty plan and a chain in the queues at the beginning (R93).
+  /// Counts the pairs of the empty plan and a chain in the queues at the beginning (R93).
   std::uint64_t first_pairs = 0;
   std::uint64_t entries = 0;           ///< pairs taken from the queues
   std::uint64_t nodes = 0;             ///< partial plans, the first one of each batch among them
@@ -115,7 +115,8 @@ struct Outcome {
   Statistics statistics{};
 };
 
-/// The most bytes that the nodes of one batch may take. A search that reaches it ends as at its exploration bound.
+/// Bounds the bytes that the nodes of one batch may take. A search that reaches it ends as at its exploration
+/// bound.
 inline constexpr std::size_t kMostNodeBytes = std::size_t{24} << 20U;
 
 /// Plans: first the fixed requests at their times, then batch by batch, each held fixed for the next (R97). Within a
