@@ -1,4 +1,5 @@
-/// What ground usually looks like, learnt from the images of this run, and how far a patch is from it.
+// The background is what ground usually looks like, learnt from the images of this run, and how far a patch
+// is from it.
 #pragma once
 #include <Eigen/Core>
 #include <cstddef>

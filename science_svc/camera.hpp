@@ -1,4 +1,4 @@
-/// From pixels to places: where on the ground lies what a pixel shows.
+// This file leads from pixels to places: where on the ground lies what a pixel shows.
 #pragma once
 #include <optional>
 

@@ -1,4 +1,4 @@
-/// Images as sets of patches, each described by numbers that say what its ground looks like.
+// Images are taken as sets of patches, each described by numbers that say what its ground looks like.
 #pragma once
 #include <Eigen/Core>
 #include <vector>

@@ -1,4 +1,4 @@
-/// Images as they come from the wire: read with limits, cut with marks.
+// Images come from the wire: they are read with limits, and cut with marks.
 #pragma once
 #include <string>
 #include <string_view>
