@@ -1,4 +1,4 @@
-// Paths that were found, kept for who asks again as long as the map beneath them stands.
+// The answer table keeps paths that were found, for who asks again, as long as the map beneath them stands.
 #pragma once
 #include <cstddef>
 #include <map>

@@ -1,4 +1,4 @@
-/// Where the rover may go, and how hard it is: the site seen with the limits of the rover.
+// The costmap says where the rover may go, and how hard it is: the site seen with the limits of the rover.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// What a path planner hears of the terrain from its own robot and from the team, what it tells the team,
-// and what it shows who watches.
+// The map exchange is what a path planner hears of the terrain from its own robot and from the team, what it
+// tells the team, and what it shows to observers.
 #pragma once
 
 #include <functional>

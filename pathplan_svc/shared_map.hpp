@@ -1,4 +1,5 @@
-/// What a robot knows of the terrain beyond the map that was loaded: what it found itself, and what others told it.
+// The shared map is what a robot knows of the terrain beyond the map that was loaded: what it found itself, and
+// what others told it.
 #pragma once
 
 #include <cstdint>
