@@ -1,5 +1,5 @@
-// What a dedicated executive must know of itself after its death: in which epoch it commanded, which command was under
-// way, how far the method had come, and the state that it showed.
+// The call record is what a dedicated executive must know of itself after its death: in which epoch it commanded,
+// which command was under way, how far the method had come, and the state that it showed.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Carries out the calls of methods: commands, paths, transforms, observations.
+// This file carries out the calls of methods: commands, paths, transforms, observations.
 #pragma once
 
 #include <functional>

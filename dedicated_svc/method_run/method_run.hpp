@@ -1,5 +1,5 @@
-// One command under way (R145, R146): which call comes next, what its answer means, when it is over. Pure: answers of
-// calls go in, what to call comes out.
+// A method run is one command under way (R145, R146): it says which call comes next, what its answer means, and when
+// the command is over. It is pure: answers of calls go in, what to call comes out.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// The methods of a dedicated executive (R145, R146): which calls to its subsystems carry out one command, what their
-// answers must look like, and what is tried where one fails in a way that is known.
+// The methods of a dedicated executive (R145, R146) say which calls to its subsystems carry out one command, what
+// their answers must look like, and what is tried where one fails in a known way.
 #pragma once
 
 #include <cstdint>
