@@ -1,4 +1,4 @@
-// The levels of a plan: activities, each with what it is made of behind it.
+// This file arranges the levels of a plan: activities, each followed by its parts.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,5 @@
-// What a mission file says to people: its goal kinds with help and example, and the units of its timelines.
+// Mission words are what a mission file says to people: its goal kinds with help and example, and the units
+// of its timelines.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// `roci network …`: the planner's task network and its parameters, from the ground (R83, R118).
+// This is `roci network …`: the planner's task network and its parameters, from the ground (R83, R118).
 #pragma once
 
 #include <string>

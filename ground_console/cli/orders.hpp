@@ -1,4 +1,4 @@
-// `roci order …` and `roci decisions`: orders to the executive, and the decisions that are open.
+// These are `roci order …` and `roci decisions`: orders to the executive, and the decisions that are open.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

@@ -1,4 +1,4 @@
-// The verb `roci reach`: whether a robot gets to a place, how long it takes, and how much energy.
+// This is the verb `roci reach`: whether a robot gets to a place, how long it takes, and how much energy.
 #pragma once
 
 #include <optional>

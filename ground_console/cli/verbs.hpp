@@ -1,4 +1,4 @@
-// The verbs of roci. Each returns an exit code (docs/exit-codes.md, "Ground tool").
+// These are the verbs of roci. Each returns an exit code (docs/exit-codes.md, "Ground tool").
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// The ground's door to a running mission: an observer that fills a MissionView and sends goals.
+// The client is the ground's door to a running mission: an observer that fills a MissionView and sends goals.
 #pragma once
 
 #include <chrono>

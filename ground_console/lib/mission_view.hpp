@@ -1,4 +1,5 @@
-// What the ground knows of a mission: the newest of everything that came down. Plain values, no DDS.
+// The mission view is what the ground knows of a mission: the newest of everything that came down. It
+// consists of plain values, without DDS.
 #pragma once
 
 #include <cstdint>

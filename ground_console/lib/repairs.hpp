@@ -1,4 +1,5 @@
-// Which owners of commands repair what by themselves (R146), as their words on commands tell. Plain values, no DDS.
+// Repairs are what owners of commands mend by themselves (R146), as their words on commands tell. They are plain
+// values, without DDS.
 #pragma once
 
 #include <cstdint>

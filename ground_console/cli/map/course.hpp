@@ -1,4 +1,5 @@
-// What timelines of states showed over a run, and what they are still to show. Plain values, whatever they came from.
+// A course is what timelines of states showed over a run, and what they are still to show. It consists of plain
+// values, whatever they came from.
 #pragma once
 
 #include <cstdint>

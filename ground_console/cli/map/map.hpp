@@ -1,4 +1,4 @@
-// The verb `roci map`: a picture of the ground of a mission, with what is planned and driven on it.
+// This is the verb `roci map`: a picture of the ground of a mission, with what is planned and driven on it.
 #pragma once
 
 #include <functional>

@@ -1,4 +1,4 @@
-// What a map of a mission shows. Plain values, whatever they came from.
+// A mission map is what a map of a mission shows. It consists of plain values, whatever they came from.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// A picture of pixels, and the few shapes that a map needs, with smooth edges.
+// A picture consists of pixels, and has the few shapes that a map needs, with smooth edges.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// A picture as an SVG document: shapes and texts in the order in which they are drawn.
+// This is a picture as an SVG document: shapes and texts in the order in which they are drawn.
 #pragma once
 
 #include <cstddef>

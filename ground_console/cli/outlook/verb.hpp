@@ -1,4 +1,4 @@
-// The verbs `roci downlinks`, `utility`, `energy`, `subway` and `chains`.
+// These are the verbs `roci downlinks`, `utility`, `energy`, `subway` and `chains`.
 #pragma once
 
 #include <string>

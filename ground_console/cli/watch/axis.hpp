@@ -1,4 +1,4 @@
-// The time axis that the panels of the plan share: mission time to columns.
+// The panels of the plan share this time axis: mission time to columns.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// A grid of styled characters, to be printed plain or with the terminal's colours.
+// The canvas is a grid of styled characters, to be printed plain or with the terminal's colours.
 #pragma once
 
 #include <cstddef>

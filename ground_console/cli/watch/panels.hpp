@@ -1,4 +1,4 @@
-// The panels of the screen. Each draws into a rectangle of the canvas and keeps within it.
+// These are the panels of the screen. Each draws into a rectangle of the canvas and keeps within it.
 #pragma once
 
 #include <cstddef>

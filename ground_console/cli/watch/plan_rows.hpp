@@ -1,4 +1,4 @@
-// Which activities of a plan the screen shows when not all of them fit.
+// This file chooses which activities of a plan the screen shows when not all of them fit.
 #pragma once
 
 #include <cstddef>
