@@ -1,4 +1,4 @@
-// One flight of a mission with all services in this process, over the inproc transport, on the simulated
+// A flight takes a mission with all services in this process, over the inproc transport, on the simulated
 // clock.
 #pragma once
 

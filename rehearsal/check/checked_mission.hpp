@@ -1,4 +1,4 @@
-// A mission as far as it could be read, which the checks look at.
+// A checked mission is a mission as far as it could be read, which the checks examine.
 #pragma once
 
 #include <optional>

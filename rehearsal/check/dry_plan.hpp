@@ -1,4 +1,4 @@
-// Whether each goal kind of a mission can be planned at all, from where its scenarios begin.
+// A dry plan tells whether each goal kind of a mission can be planned at all, from where its scenarios begin.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// Everything that can be found wrong with a mission before it is flown.
+// The mission check finds everything that can be found wrong with a mission before it is flown.
 #pragma once
 
 #include <filesystem>

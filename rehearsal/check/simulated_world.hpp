@@ -1,4 +1,4 @@
-// What the simulated robots of a mission are made of, and what they say of themselves.
+// This file reads what the simulated robots of a mission are made of, and what they say of themselves.
 #pragma once
 
 #include <string>
