@@ -20,7 +20,8 @@ class WorldFile {
  public:
   explicit WorldFile(std::filesystem::path file) : file_(std::move(file)) {}
 
-  /// Nothing if there is none; one that cannot be read is told in the log and left out.
+  /// Reads the file. Returns nothing if there is none; one that cannot be read is reported in the log and
+  /// left out.
   std::optional<world::WorldMemory> read() const;
   /// Writes it if it is another one than the last. What the disk does not take is told once, and written later.
   void keep(const world::WorldMemory&);

@@ -11,7 +11,7 @@ namespace roci::sim::components {
 
 /// Describes the ice of one site.
 struct Ice {
-  /// The energy that cuts a unit of its volume (Teale, "The concept of specific energy in rock
+  /// Gives the energy that cuts a unit of its volume (Teale, "The concept of specific energy in rock
   /// drilling", 1965), in the middle.
   double specific_energy_j_m3 = 1e9;
   double layer_m = 0.01;              ///< within a layer it is equally hard

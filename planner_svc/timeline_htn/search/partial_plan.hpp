@@ -36,7 +36,8 @@ struct Activity {
   TimePoint end = 0;
   model::Bounds bounds;
   Index goal = kNone;  ///< of the problem
-  /// Of the parent's behaviour; kNone: goals, and steps that transitions or needs ask for.
+  /// Numbers the subgoal of the parent's behaviour; kNone: a goal, or a step that transitions or needs ask
+  /// for.
   Index subgoal = kNone;
   Index behaviour = kNone;  ///< that was chosen for a complex state
   Index binding = kNone;    ///< of its variables

@@ -19,7 +19,8 @@ struct Step {
   std::uint64_t id = 0;  ///< the same in all versions
   model::TaskIndex task = 0;
   temporal::Time start{0};
-  /// What it takes; none: what the network says. Downlinks and what is executed have one of their own.
+  /// Holds the time that it takes; none: as the network says. Downlinks and executed tasks have one of their
+  /// own.
   std::optional<temporal::Duration> duration{};
   bool committed = false;
   bool due = false;      ///< it should begin or end by now and is not known to have
@@ -76,11 +77,11 @@ struct Question {
   const model::Values& values;
   std::vector<Block> plan;
   std::vector<Block> before{};  ///< the version that this one follows
-  /// What runs or has succeeded of chains that were broken off: it counts on timelines,
-  /// and is no decomposition any more.
+  /// Lists what runs or has succeeded of chains that were broken off: it counts on timelines, but is no
+  /// decomposition any more.
   std::vector<Step> rests{};
   Downlinks downlinks{};
-  /// Otherwise the plan does not say what goes with which downlink, and that is not checked.
+  /// Says whether the plan tells what goes with which downlink; otherwise that is not checked.
   bool downlinks_told = true;
   std::vector<Observation> observations{};
   temporal::Time origin{0};  ///< of the plan

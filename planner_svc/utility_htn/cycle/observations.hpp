@@ -20,7 +20,7 @@ class Observations {
   Observations(const model::Network& network, double noticeable);
 
   /// Returns whether what was observed since `forget_deviations()` is so far from what was foreseen that it matters.
-  /// Of a timeline of states every difference does.
+  /// On a timeline of states every difference matters.
   bool take(temporal::timelines::Index timeline, temporal::Time sampled, double value, double foreseen);
   void forget_deviations();
 

@@ -87,8 +87,7 @@ class Delivery {
   /// The network outlives this.
   explicit Delivery(const model::Network& network) : network_(network), rules_(network) {}
 
-  /// Takes in that another network stands where `before` stood.
-  /// What a task generated that it does not have waits all the same.
+  /// Takes in that another network replaces `before`. Data of tasks that it lacks still wait.
   void replaced(const model::Network& before);
   /// Takes in a product's newest state; returns whether anything is new. Its request stays what it was once nobody
   /// knows it any more, since the plan forgets chains that have ended. A score that is negative or not finite counts as

@@ -24,7 +24,7 @@ using ParameterIndex = std::uint32_t;
 struct Parameter {
   std::string name;  ///< e.g. "excavate_s.site_0"
   double prior = 0;
-  /// What is measured or told below this or above `highest` is refused.
+  /// Bound the values that may be measured or told; others are refused.
   double lowest = -std::numeric_limits<double>::infinity();
   double highest = std::numeric_limits<double>::infinity();
   std::string source{};  ///< where the prior comes from, or why it was chosen
