@@ -34,11 +34,13 @@ class Publisher {
   node::TopicWriter* stream_ = nullptr;
 };
 
+/// Returns the node's publisher on a topic.
 template <class T>
 Publisher<T> advertise(Node& node, const Topic<T>& topic) {
   return Publisher<T>(node::TypedEndpoints<T>::advertise(node.impl(), topic));
 }
 
+/// Calls `on_value` on the node's loop with each sample of the topic.
 template <class T>
 void subscribe(Node& node, const Topic<T>& topic,
                std::type_identity_t<std::function<void(const T&)>> on_value) {

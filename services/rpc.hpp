@@ -89,6 +89,7 @@ class Client {
   std::shared_ptr<rpc::PendingCalls> table_;
 };
 
+/// Makes a client of a procedure.
 template <class Request, class Reply>
 Client<Request, Reply> make_client(Node& node, const topics::Procedure<Request, Reply>& procedure) {
   return {node, procedure};

@@ -61,6 +61,7 @@ std::string addressee_as(const void* value) {
   }
 }
 
+/// Decodes a payload as a T.
 template <class T>
 Decoded decode_as(std::span<const std::uint8_t> payload) {
   auto value = std::make_shared<T>();
@@ -68,6 +69,7 @@ Decoded decode_as(std::span<const std::uint8_t> payload) {
   return {std::move(value), whole};
 }
 
+/// Returns the serialized key of a sample, empty for types without one.
 template <class T>
 transport::Payload key_as(const void* value) {
   transport::Payload key;
@@ -76,6 +78,7 @@ transport::Payload key_as(const void* value) {
   return key;
 }
 
+/// Returns the bytes of a sample on the wire, without its run's name.
 template <class T>
 std::size_t size_as(const void* value) {
   T without_run = *static_cast<const T*>(value);
@@ -83,6 +86,7 @@ std::size_t size_as(const void* value) {
   return transport::serialize(without_run).size();
 }
 
+/// Describes a topic for the loop, with the codec of its type.
 template <class T>
 TopicSpec spec_of(const Topic<T>& topic) {
   Codec codec;

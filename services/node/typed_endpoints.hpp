@@ -29,17 +29,20 @@ int matched_readers(const TopicWriter&);
 /// Returns how many samples the stream has written.
 std::uint64_t written(const TopicWriter&);
 
+/// Returns the node's writer of a topic.
 template <class T>
 TopicWriter& advertise(NodeImpl& node, const Topic<T>& topic) {
   return TypedEndpoints<T>::advertise(node, topic);
 }
 
+/// Calls `on_value` with each sample of the topic.
 template <class T>
 void subscribe(NodeImpl& node, const Topic<T>& topic,
                std::type_identity_t<std::function<void(const T&)>> on_value) {
   TypedEndpoints<T>::subscribe(node, topic, std::move(on_value));
 }
 
+/// Writes a sample. Returns false if the transport refused it, or a micro-step had no room for it.
 template <class T>
 bool write(TopicWriter& stream, T value) {
   return TypedEndpoints<T>::write(stream, std::move(value));

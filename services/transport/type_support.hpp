@@ -88,6 +88,7 @@ TypeDescription describe_type(std::string type_name) {
   return description;
 }
 
+/// Returns a value as a payload.
 template <class T>
 Payload serialize(const T& value) {
   Payload payload(kEncapsulationSize + T::getCdrSerializedSize(value));

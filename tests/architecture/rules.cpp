@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "tests/architecture/documentation.hpp"
 #include "tests/architecture/floors.hpp"
 #include "tests/architecture/namespaces.hpp"
 #include "tests/architecture/planner_rules.hpp"
@@ -219,6 +220,7 @@ std::vector<std::string> broken_rules(const std::vector<SourceFile>& files) {
     check_torn_comments(file, out);
     check_width_of_comments(file, out);
   }
+  std::ranges::copy(undocumented(files), std::back_inserter(out));
   std::ranges::copy(foreign_namespaces(files), std::back_inserter(out));
   std::ranges::copy(upward_includes(files), std::back_inserter(out));
   const Complaints planner = broken_planner_rules(files);
