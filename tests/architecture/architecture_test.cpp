@@ -101,7 +101,9 @@ TEST(ArchitectureTest, AHeaderSaysWhatItOffers) {
   EXPECT_THAT(broken({"class Node;", "struct Wide", "    : Base;", "struct Empty {};  ///< stands for none"}),
               IsEmpty());
   EXPECT_THAT(broken({"template <>", "struct std::hash<Id> {", "};"}), IsEmpty());
-  EXPECT_THAT(broken({"namespace detail {", "struct Part {", "};", "}  // namespace detail"}), IsEmpty());
+  EXPECT_THAT(broken({"namespace roci::temporal {", "namespace detail {", "struct Part {", "};",
+                      "}  // namespace detail", "}  // namespace roci::temporal"}),
+              IsEmpty());
   EXPECT_THAT(broken({"template <class A>", "void fields(A& a) {", "}"}), IsEmpty());
   EXPECT_THAT(broken_rules({{"core/temporal/a.cpp", {}, {"struct Local {", "};"}}}), IsEmpty());
 }
