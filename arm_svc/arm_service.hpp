@@ -1,4 +1,4 @@
-// The arm's process: what it answers and moves, over DDS.
+// This is the arm's process: what it answers and moves, over DDS.
 #pragma once
 #include <memory>
 

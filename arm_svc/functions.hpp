@@ -28,24 +28,26 @@ class Entry;
 
 namespace roci::arm {
 
+/// Says what a function of the arm returns: seconds or joules.
 enum class Quantity { duration, energy };
 
-/// Is a property of the object that stands as an argument; arguments count from 0.
+/// Names a property of the object that stands as an argument; arguments count from 0.
 struct ArgumentProperty {
   std::size_t argument = 0;
   std::string key;
 };
 
-/// Is a place: an argument (counted from 0), or a pose by name.
+/// Names a place: an argument (counted from 0), or a pose by name.
 using PlaceTerm = std::variant<std::size_t, std::string>;
 using NumberTerm = std::variant<double, ArgumentProperty>;
 
+/// Describes the payload that a function assumes.
 struct PayloadTerm {
   NumberTerm mass_kg = 0.0;
   std::optional<std::array<NumberTerm, 3>> size_m;  ///< nothing: a point
 };
 
-/// Is what a declared function means.
+/// Says what a declared function means.
 struct ArmFunction {
   std::string name;
   std::vector<std::string> parameters;  ///< types of the arguments
@@ -55,7 +57,7 @@ struct ArmFunction {
   std::optional<PayloadTerm> payload = std::nullopt;
 };
 
-/// Is a PDDL module with its functions.
+/// Describes a PDDL module with its functions.
 struct ArmModule {
   std::string name = "arm";
   std::vector<ArmFunction> functions;

@@ -12,7 +12,7 @@
 
 namespace roci::arm {
 
-/// Is a motion with its duration (s) and energy (J), or the reason why there is none.
+/// Holds a motion with its duration (s) and energy (J), or the reason why there is none.
 struct Motion {
   MotionStatus status = MotionStatus::found;
   std::string detail;     ///< It names the pose, link or joint; it is empty when found.

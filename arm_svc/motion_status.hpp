@@ -1,4 +1,4 @@
-// The outcomes of asking for a motion.
+// These are the outcomes of asking for a motion.
 #pragma once
 
 #include <string_view>

@@ -17,6 +17,7 @@ namespace roci::arm {
 /// A path is way-points joined by straight joint-space lines.
 using JointPath = std::vector<kinematics::JointVector>;
 
+/// Says why the search found no path.
 enum class SearchFailure { budget_spent, cancelled };
 
 /// Bounds a search by work, never by time.

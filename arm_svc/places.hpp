@@ -22,10 +22,10 @@ struct Place {
   std::optional<Eigen::Vector3d> position = std::nullopt;
 };
 
-/// Is a place as joint values, or the reason why it has none.
+/// Holds a place as joint values, or the reason why it has none.
 struct ResolvedPlace {
   std::string name;
-  /// Is found, unknown_pose, unreachable, unsolved or in_collision.
+  /// Holds found, unknown_pose, unreachable, unsolved or in_collision.
   MotionStatus status = MotionStatus::found;
   std::string detail;
   kinematics::JointVector joints;
@@ -37,7 +37,7 @@ struct ResolvedPlace {
 /// A search spends so many times the setup's budget at most.
 inline constexpr unsigned kMostEffort = 16;
 
-/// Is the box that stands where a pose says.
+/// Holds the box that stands where a pose says.
 struct Module {
   std::string pose;
   kinematics::CollisionShape shape;  ///< Stands in the base frame; its link is "module at POSE".

@@ -14,7 +14,7 @@
 
 namespace roci::arm {
 
-/// Is a place of the arm that plans may name.
+/// Describes a place of the arm that plans may name.
 struct NamedPose {
   std::string name;
   std::variant<kinematics::JointVector, ToolTarget> where;

@@ -12,7 +12,7 @@
 
 namespace roci::arm {
 
-/// Is one straight part; progress s runs from 0 to 1.
+/// Describes one straight part; progress s runs from 0 to 1.
 struct TrajectorySegment {
   kinematics::JointVector from;
   kinematics::JointVector to;
@@ -31,7 +31,7 @@ struct JointState {
   kinematics::JointVector acceleration;  ///< per s²; at a change of phase that of the later phase
 };
 
-/// Is a motion in time, from rest to rest in each segment.
+/// Holds a motion in time, from rest to rest in each segment.
 struct Trajectory {
   std::vector<TrajectorySegment> segments;
 

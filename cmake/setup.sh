@@ -26,6 +26,7 @@ packages=(
   python3                                                          # the field trial
   iproute2                                                         # network namespaces in the tests
   faketime                                                         # hosts whose clocks are wrong, in the tests
+  systemd                                                          # systemd-analyze, which judges the units in the tests; without systemd-sysv it starts nothing
 )
 settings=()
 if [[ ${ROCI_GEOTIFF:-0} != 0 ]]; then

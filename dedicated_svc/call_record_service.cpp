@@ -6,9 +6,9 @@
 #include <system_error>
 #include <utility>
 
+#include "core/durable/durable_file.hpp"
 #include "dedicated_svc/limits.hpp"
 #include "services/owner/value_json.hpp"
-#include "services/process/durable_file.hpp"
 
 namespace roci::dedicated {
 namespace {
@@ -92,10 +92,10 @@ RunRecord run_in(const json& in) {
   for (const json& one : in.at("taken")) out.taken.push_back(taken_in(one));
   if (const auto why = in.find("broken_off"); why != in.end()) {
     const bool failed = why->at("stage").get<int>() == static_cast<int>(owner::Stage::failed);
-    out.broken_off = owner::Word{failed ? owner::Stage::failed : owner::Stage::cancelled,
-                                 why->at("code").get<std::string>(),
-                                 why->at("reason").get<std::string>(),
-                                 {}};
+    out.broken_off = owner::CommandStatus{failed ? owner::Stage::failed : owner::Stage::cancelled,
+                                          why->at("code").get<std::string>(),
+                                          why->at("reason").get<std::string>(),
+                                          {}};
   }
   return out;
 }
@@ -149,7 +149,7 @@ void CallRecord::take(method_run::Taken taken, Time now) {
   write();
 }
 
-void CallRecord::break_off(const owner::Word& why) {
+void CallRecord::break_off(const owner::CommandStatus& why) {
   if (!run_) return;
   run_->broken_off = why;
   write();
@@ -177,7 +177,7 @@ void CallRecord::write() {
   if (state_) out["state"] = owner::to_json(*state_);
   if (around_write_) around_write_();
   try {
-    services::process::replace_file(file_, out.dump(-1, ' ', false, json::error_handler_t::replace) + "\n");
+    durable::replace_file(file_, out.dump(-1, ' ', false, json::error_handler_t::replace) + "\n");
   } catch (const std::system_error&) {
     std::error_code ignored;
     std::filesystem::remove(file_, ignored);

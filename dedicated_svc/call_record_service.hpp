@@ -1,5 +1,5 @@
-// What a dedicated executive must know of itself after its death: in which epoch it commanded, which command was under
-// way, how far the method had come, and the state that it showed.
+// The call record is what a dedicated executive must know of itself after its death: in which epoch it commanded,
+// which command was under way, how far the method had come, and the state that it showed.
 #pragma once
 
 #include <cstdint>
@@ -13,17 +13,18 @@
 
 namespace roci::dedicated {
 
-/// Is a command from above that is being carried out, as far as it has come.
+/// Describes a command from above that is being carried out, as far as it has come.
 struct RunRecord {
   services::owner::Request request;  ///< but for who sent it when
   temporal::Time begun{};
-  temporal::Time call_begun{};                        ///< of the call that is under way
-  std::vector<method_run::Taken> taken{};             ///< in their order
-  std::optional<services::owner::Word> broken_off{};  ///< why it is to end early
+  temporal::Time call_begun{};                                 ///< of the call that is under way
+  std::vector<method_run::Taken> taken{};                      ///< in their order
+  std::optional<services::owner::CommandStatus> broken_off{};  ///< why it is to end early
 };
 
-/// Is kept in a small file, whole or not at all, before what it says is done. Where the disk does not take a change,
-/// all is forgotten with the process: an old word would have things done twice. Changes throw std::system_error then.
+/// Keeps calls in a small file, whole or not at all, before what it says is done. Where the disk does not take a
+/// change, all is forgotten with the process: an old word would have things done twice. Changes throw
+/// std::system_error then.
 class CallRecord {
  public:
   /// Reads the file, if there is one. An empty path keeps nothing. `around_write` is called before and after each write
@@ -46,7 +47,7 @@ class CallRecord {
   /// The call is over, and the next one begins now, if there is one.
   /// Of a run that takes more than kTaken nothing is known any more.
   void take(method_run::Taken taken, temporal::Time now);
-  void break_off(const services::owner::Word& why);
+  void break_off(const services::owner::CommandStatus& why);
   /// What is open stays so.
   void end_run(const temporal::Value& state);
   /// What was open is not.

@@ -16,8 +16,8 @@ namespace roci::dedicated {
 namespace {
 
 using method_run::Answer;
+using services::owner::CommandStatus;
 using services::owner::Stage;
-using services::owner::Word;
 using temporal::Value;
 
 std::optional<double> number_of(const std::string& text) {
@@ -70,14 +70,14 @@ Value awaited(const methods::ObserveCall& call) {
   return temporal::state(call.state, call.arguments);
 }
 
-Answer answer_of(const Word& word) {
+Answer answer_of(const CommandStatus& status) {
   Answer answer;
-  answer.values = word.results.values;
-  answer.energy_j = word.results.energy_j;
-  if (word.results.duration) answer.values["duration_s"] = temporal::to_seconds(*word.results.duration);
-  if (word.stage == Stage::completed) return answer;
-  answer.error = word.code.empty() ? "refused" : word.code;
-  answer.reason = word.reason.empty() ? answer.error : answer.error + ", " + word.reason;
+  answer.values = status.results.values;
+  answer.energy_j = status.results.energy_j;
+  if (status.results.duration) answer.values["duration_s"] = temporal::to_seconds(*status.results.duration);
+  if (status.stage == Stage::completed) return answer;
+  answer.error = status.code.empty() ? "refused" : status.code;
+  answer.reason = status.reason.empty() ? answer.error : answer.error + ", " + status.reason;
   return answer;
 }
 
@@ -141,9 +141,9 @@ services::commander::Call Calls::sent_as(const methods::CommandCall& call) const
 }
 
 services::commander::CommandClient::OnEnd Calls::on_command_end() {
-  return [this](const Word& word) {
-    Answer result = answer_of(word);
-    if (timed_out_ && (word.stage == Stage::cancelled || word.stage == Stage::unknown))
+  return [this](const CommandStatus& status) {
+    Answer result = answer_of(status);
+    if (timed_out_ && (status.stage == Stage::cancelled || status.stage == Stage::unknown))
       result.error = "call-timeout", result.reason = "it took longer than it may";
     answer(std::move(result));
   };
@@ -268,7 +268,7 @@ void Calls::answer(Answer result) {
 
 void Calls::settle(std::function<void()> settled) {
   if (!record_.open()) return settled();
-  commands_.settle(*record_.open(), [this, settled = std::move(settled)](const Word&) {
+  commands_.settle(*record_.open(), [this, settled = std::move(settled)](const CommandStatus&) {
     keep([this] { record_.end(); });
     settled();
   });

@@ -1,4 +1,4 @@
-// Carries out the calls of methods: commands, paths, transforms, observations.
+// This file carries out the calls of methods: commands, paths, transforms, observations.
 #pragma once
 
 #include <functional>
@@ -19,7 +19,7 @@
 
 namespace roci::dedicated {
 
-/// Is a place that an object of the mission stands for, in metres.
+/// Describes a place that an object of the mission stands for, in metres.
 struct Spot {
   double x = 0;
   double y = 0;

@@ -65,7 +65,7 @@ class DedicatedService final : public services::Service, private owner::Driver {
   struct UnderWay {
     owner::Request request;
     MethodRun run;
-    std::optional<owner::Word> broken_off{};  // why it is to end early
+    std::optional<owner::CommandStatus> broken_off{};  // why it is to end early
   };
   // One of an earlier process, until whoever commanded it asks for it.
   struct Kept {
@@ -106,7 +106,7 @@ class DedicatedService final : public services::Service, private owner::Driver {
            open.activity == Calls::activity_of(request, step.ask->number);
   }
 
-  static method_run::End end_of(const owner::Word& why) {
+  static method_run::End end_of(const owner::CommandStatus& why) {
     return {.error = why.code.empty() ? "stopped" : why.code};
   }
 
@@ -211,7 +211,7 @@ class DedicatedService final : public services::Service, private owner::Driver {
     if (waiting_) begin();
   }
 
-  void break_off(const owner::CommandKey& key, const owner::Word& why) override {
+  void break_off(const owner::CommandKey& key, const owner::CommandStatus& why) override {
     if (waiting_ && waiting_->key == key) {
       waiting_.reset();
       commands_.say(key, why);
@@ -241,28 +241,28 @@ class DedicatedService final : public services::Service, private owner::Driver {
 
   // The word that says why stands, whatever the call came to in the meantime.
   void finish_early(const method_run::Answer& answer) {
-    owner::Word word = *under_way_->broken_off;
-    word.results.values = answer.values;
-    const temporal::Value state = under_way_->run.failed(end_of(word), methods_.rest);
-    end(state, std::move(word));
+    owner::CommandStatus status = *under_way_->broken_off;
+    status.results.values = answer.values;
+    const temporal::Value state = under_way_->run.failed(end_of(status), methods_.rest);
+    end(state, std::move(status));
   }
 
   void finish(const method_run::End& result) {
-    owner::Word word{Stage::completed, "done", result.reason, {}};
-    word.results.energy_j = result.energy_j;
-    word.results.values = result.values;
+    owner::CommandStatus status{Stage::completed, "done", result.reason, {}};
+    status.results.energy_j = result.energy_j;
+    status.results.values = result.values;
     for (const auto& [timeline, value] : under_way_->run.told(result)) show(timeline, value);
-    if (result.error.empty()) return end(under_way_->run.then(methods_.rest), std::move(word));
-    word.stage = Stage::failed;
-    word.code = result.error;
-    end(under_way_->run.failed(result, methods_.rest), std::move(word));
+    if (result.error.empty()) return end(under_way_->run.then(methods_.rest), std::move(status));
+    status.stage = Stage::failed;
+    status.code = result.error;
+    end(under_way_->run.failed(result, methods_.rest), std::move(status));
   }
 
-  void end(const temporal::Value& state, owner::Word word) {
+  void end(const temporal::Value& state, owner::CommandStatus status) {
     const owner::CommandKey key = under_way_->request.key;
     under_way_.reset();
     show(state);
-    commands_.say(key, std::move(word));
+    commands_.say(key, std::move(status));
     keep([&] { record_.end_run(state); });
   }
 

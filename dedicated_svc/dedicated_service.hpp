@@ -1,4 +1,4 @@
-// A dedicated executive as a service: what the program and a rehearsal make.
+// This is a dedicated executive as a service, which the program and a rehearsal make.
 #pragma once
 #include <functional>
 #include <memory>

@@ -1,4 +1,4 @@
-// How far the tables of a dedicated executive may grow by what comes from the wire
+// These limits bound how far the tables of a dedicated executive may grow by what comes from the wire
 // (docs/resilience.md, "What is bounded").
 #pragma once
 

@@ -40,8 +40,8 @@ bool CommandEpoch::take_refusal(const v1::CommandAck& ack) {
   return !leads;
 }
 
-// The journal was lost, or somebody has commanded in this name: the epoch after the owner's is this executive's,
-// in the journal before anything goes out in it. One word of an owner moves it by a bounded step.
+// Takes the epoch after the owner's, since the journal was lost or somebody else has commanded in this name. It
+// is in the journal before anything goes out in it. One refusal moves it by a bounded step.
 void CommandEpoch::follow(const v1::CommandAck& ack) {
   const std::uint64_t held = ack.newest_epoch();
   const std::uint64_t before = epoch_;

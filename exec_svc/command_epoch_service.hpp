@@ -1,4 +1,4 @@
-/// The epoch in which an executive commands, and what it does where an owner holds another one.
+// This file has the epoch in which an executive commands, and what follows where an owner holds another one.
 #pragma once
 
 #include <cstdint>
@@ -6,7 +6,7 @@
 
 #include "exec_svc/output_publisher_service.hpp"
 #include "exec_svc/strangers.hpp"
-#include "services/topics.hpp"
+#include "services/topics/topics.hpp"
 
 namespace roci::exec {
 
@@ -17,17 +17,18 @@ namespace standby {
 class LeaderService;
 }  // namespace standby
 
+/// Holds the epoch in which this executive commands, and moves on where an owner holds a later one.
 class CommandEpoch {
  public:
-  /// With a `leader`, of a pair, that decides where an owner holds a later epoch; without one the executive takes the
-  /// epoch after it, and `begin` hears of that. All outlive this.
+  /// With a `leader` (of a pair) that one decides what follows where an owner holds a later epoch; without one the
+  /// executive begins the epoch after it and calls `begin` with it. All arguments must outlive this object.
   CommandEpoch(const services::Node&, journal::Journal&, OutputPublisher&, Strangers&,
                standby::LeaderService* leader, std::uint64_t epoch, std::function<void(std::uint64_t)> begin);
 
   std::uint64_t number() const { return epoch_; }
 
-  /// Takes in that an owner refused the epoch of a command. Returns whether what was refused is to be said again, in
-  /// the epoch that has begun by then.
+  /// Takes in that an owner refused the epoch of a command. Returns whether the refused command is to be sent again,
+  /// in the epoch that has begun since.
   bool take_refusal(const v1::CommandAck&);
 
  private:

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "services/topics.hpp"
+#include "services/topics/topics.hpp"
 #include "services/wire/plan_wire.hpp"
 
 namespace roci::exec {

@@ -1,5 +1,4 @@
-/// The line to those who resolve decisions of the running plan: questions out, answers in, a receipt for each
-/// answer (R131).
+// The decision link joins the executive to those who resolve decisions of the running plan (R131).
 #pragma once
 
 #include <functional>
@@ -10,14 +9,17 @@
 
 namespace roci::exec {
 
+/// Sends questions and receipts, and takes answers to decisions in from the wire (R131). Every answer gets a
+/// receipt.
 class DecisionLink {
  public:
-  /// `take` gets each answer that is meant for this executive, with its line of the trace.
+  /// Calls `take` with each answer that is meant for this executive, and with its line of the trace.
   DecisionLink(services::Node& node, std::function<void(reactor::GivenAnswer, std::string line)> take);
 
-  /// What a step has decided.
+  /// Sends what a step has decided.
   void send(const reactor::ReactorOutputs& out) const;
-  /// Everything as it stands, for who joins after a restart: an open question is asked again under its id.
+  /// Publishes everything as it stands, for late joiners after a restart: an open question is asked again
+  /// under its id.
   void tell(const reactor::Reactor& reactor) const;
 
  private:

@@ -1,5 +1,5 @@
-/// The line to an engine that plans all the time: versions of its plan in, receipts out (R66). Which steps
-/// begin and end it hears on the topics that everybody hears.
+// The engine link joins the executive to an engine that plans all the time (R66). That one hears which steps
+// begin and end on the topics that everybody hears.
 #pragma once
 
 #include <functional>
@@ -10,9 +10,10 @@
 
 namespace roci::exec {
 
+/// Takes in versions of the engine's plan, and sends receipts for them (R66).
 class EngineLink {
  public:
-  /// `take` gets each delta as it comes, `report` what is wrong with one that cannot be read.
+  /// Calls `take` with each delta as it comes, and `report` with what is wrong with one that cannot be read.
   EngineLink(services::Node& node, std::function<void(temporal::PlanDelta)> take,
              std::function<void(const reactor::Event&)> report);
 

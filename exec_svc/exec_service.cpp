@@ -69,7 +69,8 @@ CrashPoints crash_points(const Node& node) {
                      [] { std::raise(SIGKILL); });
 }
 
-// The supervisor of one that leads a pair hears nothing while it waits: the other one has a disk of its own.
+// Lets the leader of a pair keep silent to its supervisor while it waits, since the other member has a disk
+// of its own.
 services::process::DiskPause disk_pause(Node& node, const LeaderService* leading) {
   return leading == nullptr ? services::process::DiskPause(node) : services::process::DiskPause();
 }
@@ -144,14 +145,14 @@ class ExecService final : public services::Service {
     }
   }
 
-  // The one of a leader that stood down would replace its successor's.
+  // A leader that stood down writes no summary: it would replace its successor's.
   ~ExecService() override {
     journal_watch_.stop();
     if (leader_ == nullptr || std::uncaught_exceptions() == 0) write_summary();
   }
 
  private:
-  // After a restart: who joins now hears of every goal and of the running plan, as before; the reactor itself
+  // Publishes every goal and the running plan again after a restart, for late joiners; the reactor itself
   // asks again for what was under way.
   void recover() {
     const Recovery& recovery = reactor_.recovery();
@@ -171,8 +172,8 @@ class ExecService final : public services::Service {
     presence_.recall_peers();
   }
 
-  // A second executive of this name would have ended by then (services/health/namesake_watch.hpp), and has begun
-  // nothing. One that was started again follows itself. Under the simulated clock there is one of each name.
+  // Delays the first step, so that a second executive of this name ends before it begins anything
+  // (services/health/namesake_watch.hpp). Under the simulated clock there is one of each name.
   void listen_first() {
     const auto& options = node_.options();
     if (options.clock != services::clock::ClockMode::live) return timer_.step_soon();
@@ -199,7 +200,7 @@ class ExecService final : public services::Service {
     });
   }
 
-  // What the ground is told of the pair, in mission time: under the simulated clock with a step.
+  // Tells the ground of the pair, in mission time: under the simulated clock with a step.
   void tell_pair() {
     for (const Event& event : leader_->take_events()) publisher_.report(event);
     if (!leader_->take_held()) return;
@@ -209,7 +210,7 @@ class ExecService final : public services::Service {
     orders_.tell_orders(reactor_.reactor());
   }
 
-  // Those whom the running plan commands; while there is none, all.
+  // Requires the leases of the owners that the running plan commands, or of all while there is none.
   void lead_owners() {
     std::set<std::string> owners;
     for (const temporal::PlanActivity& activity : reactor_.reactor().plan().activities) {
@@ -220,7 +221,7 @@ class ExecService final : public services::Service {
     leader_->require(owners);
   }
 
-  // As the other executive has it, which led apart.
+  // Takes in a goal as the other executive has it, which led apart.
   void take(goals::GoalRecord goal) {
     if (!intake_.admits(goal.request, inputs_.goals, node_.now())) return;
     inputs_.handed_over.push_back(std::move(goal));
@@ -228,7 +229,7 @@ class ExecService final : public services::Service {
     timer_.step_soon();
   }
 
-  // A goal that goes to another executive is recalled here.
+  // Takes in a goal; one that now goes to another executive is recalled here.
   void take(const v1::Goal& goal) {
     GoalRequest request = from_wire(goal);
     if (addressee(mission_.role, request.robot) == mission::Addressee::another) {
@@ -359,7 +360,7 @@ class ExecService final : public services::Service {
   Node& node_;
   services::RunSettings settings_;
   MissionModel mission_;
-  // It is named while the mission file is there; the destructor reads nothing any more.
+  // This is set by the constructor, while the mission file is there; the destructor reads no files.
   std::filesystem::path summary_file_;
   Journal& journal_;
   LeaderService* leader_;            // none: no other executive follows

@@ -1,5 +1,5 @@
-/// The reactor and executive as a process: goals, observations, acknowledgements and planner replies in;
-/// commands, plans, statuses and events out; everything journalled before it is sent.
+// This is the reactor and executive as a process: goals, observations, acknowledgements and planner replies
+// come in; commands, plans, statuses and events go out; everything is journaled before it is sent.
 #pragma once
 
 #include <cstdint>
@@ -17,14 +17,15 @@ class GoalsApart;
 class LeaderService;
 }  // namespace standby
 
-/// Alone, with the journal of the run folder.
+/// Makes an executive without a standby, with the journal of the run folder.
 std::unique_ptr<services::Service> make_service(services::Node&, const services::RunSettings&);
 
-/// Alone, with this journal, in this epoch.
+/// Makes an executive without a standby that uses this journal and begins in this epoch.
 std::unique_ptr<services::Service> make_executive(services::Node&, const services::RunSettings&,
                                                   journal::Journal&, std::uint64_t epoch);
 
-/// The leader of a pair; `doubtful` as in JournaledReactor. It takes in the goals that are kept `apart` first.
+/// Makes the leader of a pair; `doubtful` is as in JournaledReactor. It first takes in the goals that are kept
+/// `apart`.
 std::unique_ptr<services::Service> make_executive(services::Node&, const services::RunSettings&,
                                                   journal::Journal&, standby::LeaderService&, bool doubtful,
                                                   const standby::GoalsApart& apart);

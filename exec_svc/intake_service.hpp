@@ -1,5 +1,4 @@
-/// The door to the reactor: what comes from the wire is let in as long as the tables that keep
-/// it have room (limits.hpp).
+// The intake admits what comes from the wire as long as the tables that keep it have room (limits.hpp).
 #pragma once
 
 #include <functional>
@@ -14,23 +13,26 @@
 
 namespace roci::exec {
 
-/// What is known already always passes, so that a full table holds up nobody who is in it. Each refusal is an event
-/// with a code of its own, "goal.no_room" and so on, the first time and each time that there are ten times as many.
+/// Decides what is let in. A key that is known always passes, so a full table blocks none of its own entries. Each
+/// kind of refusal has an event of its own, e.g. "goal.no_room", reported the first, tenth, hundredth time and so
+/// on.
 class Intake {
  public:
   using Report = std::function<void(const reactor::Event&)>;
 
-  /// Mission and reactor outlive this. Knows what the reactor knows when it is made, and what it has let in since.
+  /// Starts with what the reactor knows now, and adds what is let in from then on. Mission and reactor must
+  /// outlive this object.
   Intake(const mission::MissionModel&, const reactor::Reactor&, Report);
 
-  /// `waiting`: those that were let in and that the reactor has not seen yet.
+  /// Returns whether there is room. `waiting` are the requests that were let in and that the reactor has not
+  /// seen yet.
   bool admits(const goals::GoalRequest&, const std::vector<goals::GoalRequest>& waiting, temporal::Time now);
   bool admits(const orders::Order&);
   bool admits(const reactor::GivenAnswer&);
   bool admits(const executive::Observation&);
   bool admits(const reactor::ModelVersion&);
 
-  /// Reports an event about a bad sample: by its code, the first one, the tenth, the hundredth and so on.
+  /// Reports an event about a bad sample, of each code the first one, the tenth, the hundredth and so on.
   void tell(reactor::Event);
 
  private:
@@ -38,19 +40,20 @@ class Intake {
   bool enter(std::set<std::string>& known, const std::string& name, std::size_t room, const char* code,
              const char* what);
   bool refuse(const char* code, const std::string& text);
-  /// Whether there is room for one more goal of its fate, found with a copy of the reactor's goals.
+  /// Returns whether the goal finds room among the accepted or the rejected ones, as a trial on a copy of the
+  /// reactor's goals tells.
   bool has_room_for(const goals::GoalRequest&, const std::vector<goals::GoalRequest>& waiting,
                     temporal::Time now);
-  /// Whether the mission's own data speak of the timeline.
+  /// Returns whether the mission's own data mention the timeline.
   bool is_of_mission(const std::string& timeline) const;
 
   const mission::MissionModel* mission_;
   const reactor::Reactor* reactor_;
   Report report_;
   services::bounds::Tally tally_;
-  std::optional<goals::GoalSet> sieve_;  // a copy of the reactor's goals, with those that came since
-  std::size_t sieved_ = 0;               // since it was copied
-  std::size_t rejected_ = 0;             // of it
+  std::optional<goals::GoalSet> sieve_;  // copy of the reactor's goals, with those that came since
+  std::size_t sieved_ = 0;               // goals that came since it was copied
+  std::size_t rejected_ = 0;             // rejected goals in it
   std::set<std::string> goals_, orders_, answers_, timelines_, foreign_timelines_, owners_;
 };
 

@@ -1,4 +1,5 @@
-/// What operators are told of an executive's journal: damage that was found in it, and that it waits for its disk.
+// The journal watch tells operators of damage that was found in an executive's journal, and that the journal waits
+// for its disk.
 #pragma once
 
 #include <functional>
@@ -13,17 +14,19 @@ namespace roci::exec {
 /// Returns whether the journal was found damaged, or without its end, and nobody has been told.
 bool is_in_doubt(const journal::Journal&);
 
+/// Reports once what the journal was found to lack, and each wait of the journal for its disk with its end.
 class JournalWatch {
  public:
   using Report = std::function<void(const reactor::Event&)>;
 
-  /// The journal outlives this, and waits for its disk by `pause` until stop(). What is not durable is neither
-  /// acknowledged nor commanded, so nothing else can be done meanwhile.
+  /// Lets the journal, which must outlive this object, wait for its disk by `pause` until stop(). What is not
+  /// durable is neither acknowledged nor commanded, so nothing else can be done meanwhile.
   JournalWatch(journal::Journal&, services::process::DiskPause pause, Report);
 
-  /// Tells of damage that was found, once: the journal forgets it, and the ground has been told once that is durable.
+  /// Reports damage that was found, once: the journal then forgets it, and once that is durable the ground counts as
+  /// told.
   void tell_damage();
-  /// From now on the journal throws where its disk takes nothing.
+  /// Lets the journal throw from now on where its disk takes nothing.
   void stop() { journal_.wait_for_disk({}); }
 
  private:

@@ -1,4 +1,4 @@
-// An executive with a journal of its own, which no other one follows.
+// This is an executive with a journal of its own, which no other one follows.
 #include <memory>
 #include <string>
 
@@ -26,7 +26,7 @@ class LoneExecutive final : public services::Service {
         executive_(make_executive(node, settings, journal_, next_epoch(node))) {}
 
  private:
-  // The executive itself waits for the disk once it is there.
+  // Takes the next epoch, and waits for the disk; later the executive itself does.
   std::uint64_t next_epoch(Node& node) {
     const auto pause = std::make_shared<services::process::DiskPause>(node);
     journal_.wait_for_disk({[pause](const std::string& cause) {

@@ -16,7 +16,7 @@ void run(const roci::services::process::ServiceOptions& options,
   }
 }
 
-// A journal that a newer version wrote is bad input: starting again mends nothing.
+// Runs the process. A journal that a newer version wrote counts as bad input, since a restart does not help.
 void run_or_refuse(const roci::services::process::ServiceOptions& options,
                    roci::services::process::StopSignals& signals) {
   try {

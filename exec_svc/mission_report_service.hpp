@@ -1,4 +1,4 @@
-/// What the ground hears of the mission as a whole, and the summary of a run.
+// The mission report is what the ground hears of the mission as a whole, and the summary of a run.
 #pragma once
 
 #include <filesystem>
@@ -10,7 +10,7 @@
 
 namespace roci::exec {
 
-/// Leaves out the trace's hash.
+/// Returns the mission's status without the trace's hash.
 v1::MissionStatus mission_status(const reactor::Reactor& reactor, const mission::MissionModel& mission);
 
 /// Holds what the executive alone knows; the launcher adds the rest.
@@ -22,7 +22,7 @@ struct RunFigures {
   std::filesystem::path journal;
   std::uint64_t epoch = 0;
 };
-/// Writes it to `file` (run_file() in run_files_service.hpp).
+/// Writes the summary of the run to `file` (run_file() in run_files_service.hpp).
 void write_summary(const std::filesystem::path& file, const services::RunSettings& settings,
                    const mission::MissionModel& mission, const reactor::Reactor& reactor,
                    const RunFigures& figures);

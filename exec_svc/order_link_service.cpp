@@ -3,13 +3,13 @@
 #include <string>
 #include <utility>
 
-#include "services/topics.hpp"
+#include "services/topics/topics.hpp"
 #include "services/wire/plan_wire.hpp"
 
 namespace roci::exec {
 
 using executive::Observation;
-using orders::AutonomyLevel;
+using mission::AutonomyLevel;
 using orders::Order;
 using orders::OrderKind;
 using orders::OrderStatus;

@@ -1,5 +1,6 @@
-/// The line to the ground: orders in, the stages of each out; and, as observations for everybody, the values that the
-/// ground has set and what plans have made of timelines that nobody observes.
+// The order link joins the executive to the ground: orders come in, the stages of each go out. It also publishes, as
+// observations for everybody, the values that the ground has set and what plans have made of timelines that nobody
+// observes.
 #pragma once
 
 #include <functional>
@@ -10,22 +11,23 @@
 
 namespace roci::exec {
 
+/// Takes orders in from the wire, and publishes their stages and the values that only the executive knows.
 class OrderLink {
  public:
-  /// `take` gets each order that is meant for this executive's robot, with its line of the trace; `report`
-  /// what is wrong with one that cannot be read.
+  /// Calls `take` with each order that is meant for this executive's robot, and with its line of the trace;
+  /// calls `report` with what is wrong with one that cannot be read.
   OrderLink(services::Node& node, std::function<void(orders::Order, std::string line)> take,
             std::function<void(const reactor::Event&)> report);
 
-  /// Who holds what is acknowledged from now on.
+  /// Says who holds what is acknowledged from now on.
   void acknowledge_as(goals::AckStage stage) { ack_stage_ = stage; }
-  /// What a step has decided.
+  /// Sends what a step has decided.
   void send(const reactor::ReactorOutputs& out) const;
-  /// Everything as it stands, for who joins after a restart.
+  /// Publishes everything as it stands, for late joiners after a restart.
   void tell(const reactor::Reactor& reactor) const;
-  /// What plans have made of timelines that nobody observes.
+  /// Publishes what plans have made of timelines that nobody observes.
   void tell_concluded(const reactor::Reactor& reactor) const;
-  /// Where every order stands.
+  /// Publishes where every order stands.
   void tell_orders(const reactor::Reactor& reactor) const;
 
  private:

@@ -29,7 +29,7 @@ namespace topics = services::topics;
 
 namespace owner = services::owner;
 
-// The key of the command that tells owners a leader's epoch; no activity has it.
+// Names the command that tells owners a leader's epoch; no activity has this key.
 constexpr char kEpochKey[] = "epoch";
 
 constexpr std::size_t kToldExecuted = 8;
@@ -89,7 +89,8 @@ void OutputPublisher::send(const ReactorOutputs& out, std::uint32_t version,
   for (const Event& event : out.events) report(event);
 }
 
-// What became of a step counts until it leaves the plan: an engine that is started meanwhile goes on from there.
+// Ends the statuses of steps that have left the plan. Until then they count, since an engine that is started
+// meanwhile goes on from them.
 void OutputPublisher::end_steps_outside(const temporal::FlexiblePlan& plan) {
   std::set<std::string> gone = std::move(told_steps_);
   told_steps_.clear();
@@ -127,7 +128,7 @@ void OutputPublisher::send_waiting() {
   }
 }
 
-// A late joiner gets the newest few.
+// Publishes the plan, and disposes the oldest, so that a late joiner gets the newest few.
 void OutputPublisher::tell(const reactor::ExecutedPlan& executed) {
   v1::ExecutedPlan sample = to_wire(executed, executive_);
   v1::ExecutedPlan name;
@@ -144,7 +145,7 @@ void OutputPublisher::lose_owner(const std::string& owner) {
   std::erase_if(waiting_, [&](const v1::Command& command) { return command.owner() == owner; });
 }
 
-// The commands of an activity have arguments of their own; those of the action are told beside them.
+// Makes the sample of a plan, with the arguments of each action beside those of its commands.
 v1::Plan OutputPublisher::plan_sample(const temporal::FlexiblePlan& plan,
                                       const std::vector<PlannedAction>& actions) const {
   v1::Plan out = services::wire::to_wire(mission::with_observed_names(plan, *mission_));

@@ -1,4 +1,5 @@
-/// What leaves an executive: commands, plans, statuses and events, in one order and with its epoch.
+// The output publisher sends what leaves an executive: commands, plans, statuses and events, in one order and
+// with its epoch.
 #pragma once
 
 #include <cstdint>
@@ -14,52 +15,54 @@
 #include "exec_svc/reactor/reactor.hpp"
 #include "services/node.hpp"
 #include "services/publisher.hpp"
-#include "services/topics.hpp"
+#include "services/topics/topics.hpp"
 
 namespace roci::exec {
 
+/// Publishes what a step has decided, and holds commands back where they may not go out yet.
 class OutputPublisher {
  public:
-  /// `crash`: passes `during-send` after each sample of a step.
+  /// Passes the point `during-send` of `crash` after each sample of a step.
   OutputPublisher(services::Node&, const mission::MissionModel&, std::uint64_t epoch,
                   journal::CrashPoints& crash);
 
-  /// Who holds what is acknowledged from now on.
+  /// Says who holds what is acknowledged from now on.
   void acknowledge_as(goals::AckStage stage) { ack_stage_ = stage; }
-  /// Commands that begin something wait while this says false; what ends something, and what asks, does not. One that
-  /// is cancelled meanwhile, or whose owner is lost, is not sent at all.
+  /// Lets commands that begin something wait while `may_command` returns false; cancels and queries do not wait. A
+  /// command that is cancelled meanwhile, or whose owner is lost, is not sent at all.
   void let_commands_wait(std::function<bool()> may_command) { may_command_ = std::move(may_command); }
   /// Sends what waits, if it may go now.
   void send_waiting();
 
-  /// Goals, plan and steps as they stand, for who joins after a restart.
+  /// Publish goals, plan and steps as they stand, for late joiners after a restart.
   void send_goals(const reactor::Reactor&) const;
   void send_plan(const reactor::Reactor&);
-  /// What a step decided, but for its planner call.
-  /// `actions`: what the planner wrote for the plan that it adopts.
+  /// Sends what a step decided, but for its planner call. `actions` is what the planner wrote for the plan
+  /// that the step adopts.
   void send(const reactor::ReactorOutputs&, std::uint32_t plan_version,
             const std::vector<reactor::PlannedAction>& actions);
   void report(const reactor::Event&) const;
-  /// True if it is news: a status that equals the last one is not sent again.
+  /// Sends the status unless it equals the last one. Returns whether it was sent.
   bool publish(v1::MissionStatus, const std::string& trace_sha256);
 
-  /// Commands go out in this epoch from now on.
+  /// Lets commands go out in this epoch from now on.
   void begin_epoch(std::uint64_t epoch) { epoch_ = epoch; }
-  /// Leads all owners in this epoch, so that they refuse what an earlier leader may still send. Does nothing until
-  /// somebody hears commands, and for an owner that was told. (The simulated clock drops an earlier leader.)
+  /// Announces this epoch to all owners, so that they refuse what an earlier leader may still send. Does nothing
+  /// until somebody hears commands, and for an owner that was told. (The simulated clock drops an earlier leader.)
   void announce_epoch();
-  /// An owner that was started anew may know no epoch: it is to be told again.
+  /// Notes that an owner that was started anew may know no epoch, and is to be told again.
   void forget_told(const std::string& owner) { told_epoch_.erase(owner); }
-  /// The executive has closed what it commanded there.
+  /// Publishes a plan that has ended; a late joiner gets the newest ones.
   void tell(const reactor::ExecutedPlan& executed);
   void end_steps_outside(const temporal::FlexiblePlan& plan);
+  /// Drops what waits for a lost owner: the executive has closed what it commanded there.
   void lose_owner(const std::string& owner);
-  /// Leads the owner, which holds `held`, in later and later epochs up to this one: it takes no wider step
-  /// (services/owner/command.hpp). False: the way is too long.
+  /// Raises the epoch of the owner, which holds `held`, in bounded steps up to this one: it takes no wider
+  /// step (services/owner/command.hpp). Returns false if the way is too long.
   bool climb(const std::string& owner, std::uint64_t held);
-  /// Whether the acknowledgement answers announce_epoch() or climb().
+  /// Returns whether the acknowledgement answers announce_epoch() or climb().
   static bool answers_epoch(const v1::CommandAck&);
-  /// Whether it answers one of the commands that went out last.
+  /// Returns whether it answers one of the commands that went out last.
   bool answers_command(const v1::CommandAck&) const;
 
  private:
@@ -74,7 +77,7 @@ class OutputPublisher {
   std::uint64_t epoch_;
   journal::CrashPoints* crash_;
   std::set<std::string> told_epoch_;  // owners
-  /// Keys of the newest commands: epoch of issue, activity, attempt.
+  /// Holds the keys of the newest commands: epoch of issue, activity, attempt.
   std::deque<std::tuple<std::uint64_t, std::string, std::uint32_t>> sent_keys_;
   goals::AckStage ack_stage_ = goals::AckStage::journaled;
   std::function<bool()> may_command_;

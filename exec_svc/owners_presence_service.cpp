@@ -10,7 +10,7 @@ using services::health::PeerChange;
 
 namespace {
 
-// For known services to be heard of after a restart; of wall time, live.
+// Returns the time for known services to be heard of after a restart; live, it is wall time.
 temporal::Duration reunion(const services::Node& node) {
   const bool live = node.options().clock == services::clock::ClockMode::live;
   return temporal::seconds(5 * (live ? node.options().live_scale : 1));
@@ -38,7 +38,8 @@ void OwnersPresence::recall_peers() {
   node_.after(reunion(node_), [this] { give_up_missed(); });
 }
 
-// It may go on where it stood: its commands are not lost before it has had time to come back.
+// Waits for the owner, which may go on where it stood: its commands are not lost before it has had time to
+// come back.
 void OwnersPresence::wait_for(const PeerChange& change) {
   awaited_[change.service] = node_.after(owner_return_, [this, change] {
     awaited_.erase(change.service);

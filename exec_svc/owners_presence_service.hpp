@@ -1,5 +1,6 @@
-/// Who of the other services is there: what the reactor hears of losses and arrivals, over the executive's own
-/// restarts and over short deaths of owners that the mission waits for (`executive: owner_return_s`).
+// Owners' presence says who of the other services is there: what the reactor hears of losses and arrivals,
+// over the executive's own restarts and over short deaths of owners that the mission waits for (`executive:
+// owner_return_s`).
 #pragma once
 
 #include <cstdint>
@@ -17,6 +18,7 @@ namespace journal {
 class Journal;
 }
 
+/// Turns changes of peers into losses and arrivals, each reported once.
 class OwnersPresence {
  public:
   struct Listeners {
@@ -26,15 +28,15 @@ class OwnersPresence {
     std::function<void()> looked;  ///< after all of that
   };
 
-  /// A death of one of `owners` counts once `owner_return` is over without it; 0: at once.
-  /// Who is there is kept in `journal`.
+  /// Reports the death of one of `owners` once it has stayed away for `owner_return` (0: at once). `journal`
+  /// keeps who is there.
   OwnersPresence(services::Node& node, journal::Journal& journal, std::set<std::string> owners,
                  temporal::Duration owner_return, Listeners listeners);
 
   void take(const services::health::PeerChange& change);
 
-  /// After a restart of the executive: who was there before and is not heard of within the time of a reunion is lost;
-  /// who comes in another incarnation was lost meanwhile, too.
+  /// Goes on after a restart of the executive: a service that was there before is lost if it is not heard within the
+  /// reunion time; one that comes in another incarnation was lost meanwhile, too.
   void recall_peers();
 
  private:

@@ -1,5 +1,5 @@
-/// The line to an engine that answers calls: a problem out, a verdict with a plan in, and how long and how much
-/// memory the calls took.
+// The planner link joins the executive to an engine that answers calls: a problem goes out, a verdict with a
+// plan comes in.
 #pragma once
 
 #include <cstdint>
@@ -15,10 +15,12 @@ namespace journal {
 class Journal;
 }
 
+/// Makes and cancels the planner call, and measures how long and how much memory the calls took.
 class PlannerLink {
  public:
-  /// `take` gets the end of each call: a reply, none within the mission's time, a cancellation, or one that cannot be
-  /// read (crashed). What the slowest call took outlives a restart in `journal`.
+  /// Calls `take` at the end of each call: with a reply, with none within the mission's time limit, with a
+  /// cancellation, or with one that cannot be read (crashed). The time of the slowest call survives a restart in
+  /// `journal`.
   PlannerLink(services::Node& node, const services::RunSettings& settings,
               const mission::MissionModel& mission, journal::Journal& journal,
               std::function<void(reactor::PlanReply)> take);
@@ -35,7 +37,7 @@ class PlannerLink {
   const mission::MissionModel& mission_;
   journal::Journal& journal_;
   std::function<void(reactor::PlanReply)> take_;
-  std::string service_;  // that is called
+  std::string service_;  // the one that is called
   services::Client<v1::PlanRequest, v1::PlanReply> client_;
   std::uint64_t call_ = 0;          // the last one, as the reactor numbers them
   services::rpc::CallId sent_ = 0;  // as the wire does

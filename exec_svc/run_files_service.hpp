@@ -1,5 +1,5 @@
-/// Where an executive stands among the services of its mission, and the names of its files in the run folder
-/// that all of them share.
+// This file finds an executive among the services of its mission, and names its files in the shared run
+// folder.
 #pragma once
 
 #include <filesystem>
@@ -12,12 +12,14 @@
 
 namespace roci::exec {
 
-/// The mission's list; empty where mission.yaml has none. Throws roci::mission::FileError.
+/// Returns the mission's list of services, empty where mission.yaml has none. Throws
+/// roci::mission::FileError.
 roci::mission::ServiceList services_of(const services::RunSettings&);
 
 mission::ExecutiveRole role_of(const services::RunSettings&, const services::node::NodeOptions&);
 
-/// The path of a file in the run folder; with several executives each has one with its own name before it.
+/// Returns the path of a file in the run folder; with several executives each one's name stands before the
+/// file's.
 std::filesystem::path run_file(const services::RunSettings&, const std::string& executive,
                                const std::string& name);
 

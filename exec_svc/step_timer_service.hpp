@@ -1,4 +1,4 @@
-/// When the reactor steps: once in a turn of the loop in which something has come, and at the time it has asked for.
+// The step timer decides when the reactor steps.
 #pragma once
 
 #include <functional>
@@ -9,15 +9,16 @@
 
 namespace roci::exec {
 
+/// Calls `step` once in a turn of the loop in which something has come, and at the time that was asked for.
 class StepTimer {
  public:
   StepTimer(services::Node&, std::function<void()> step);
 
-  /// Steps behind what comes at this very time.
+  /// Steps after everything else that comes at this very time.
   void step_soon();
-  /// Steps then; what was asked for before is forgotten.
+  /// Steps at that time, and forgets the time asked for before.
   void step_at(temporal::Time);
-  /// Steps in so long, and not before, whatever comes.
+  /// Steps after that long, and not before, whatever comes.
   void step_first_after(temporal::Duration);
 
  private:

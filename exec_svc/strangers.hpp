@@ -1,4 +1,4 @@
-/// Who may be believed of those whom an executive hears, and what operators are told of the others.
+// This file says which senders an executive may believe, and what operators are told of the others.
 #pragma once
 
 #include <algorithm>
@@ -11,24 +11,24 @@
 
 namespace roci::exec {
 
-/// Each timeline has one source: the first that tells of it, until that is lost. So a second owner of a subsystem
-/// changes no belief.
+/// Gives each timeline one source: the first sender that tells of it, until that one is lost. A second owner of a
+/// subsystem thus changes no belief.
 class TimelineSources {
  public:
-  /// Whether `sender` is the timeline's source; it becomes it if there is none.
+  /// Returns whether `sender` is the timeline's source, which it becomes if there is none.
   bool admit(const std::string& timeline, const std::string& sender) {
     return sources_.try_emplace(timeline, sender).first->second == sender;
   }
-  /// The timeline's source, or "" if there is none.
+  /// Returns the timeline's source, or "" if there is none.
   std::string source(const std::string& timeline) const {
     const auto found = sources_.find(timeline);
     return found == sources_.end() ? "" : found->second;
   }
-  /// Whether any timeline has it for its source.
+  /// Returns whether the service is the source of any timeline.
   bool observes(const std::string& service) const {
     return std::ranges::any_of(sources_, [&](const auto& one) { return one.second == service; });
   }
-  /// The service is lost; another one may take its place.
+  /// Forgets a lost service, so that another one may take its place.
   void forget(const std::string& service) {
     std::erase_if(sources_, [&](const auto& one) { return one.second == service; });
   }
@@ -37,7 +37,7 @@ class TimelineSources {
   std::map<std::string, std::string> sources_;
 };
 
-/// Tells operators of each stranger once, and of a bounded number.
+/// Tells operators of each stranger once, up to a bounded number of them.
 class Strangers {
  public:
   using Report = std::function<void(const reactor::Event&)>;

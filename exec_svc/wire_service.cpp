@@ -89,7 +89,7 @@ CommandAck from_wire(const v1::CommandAck& in) {
   const auto stage = static_cast<CommandStage>(std::min<std::uint32_t>(in.stage(), v1::STAGE_UNKNOWN));
   CommandAck out{in.activity(), in.attempt(),       stage, in.code(), in.reason(),
                  in.epoch(),    in.refused_epoch(), {}};
-  services::owner::Results results = services::owner::word_from_wire(in).results;
+  services::owner::Results results = services::owner::status_from_wire(in).results;
   out.results = {results.duration, results.energy_j, std::move(results.values)};
   return out;
 }

@@ -1,4 +1,4 @@
-// Paths that were found, kept for who asks again as long as the map beneath them stands.
+// The answer table keeps paths that were found, for who asks again, as long as the map beneath them stands.
 #pragma once
 #include <cstddef>
 #include <map>
@@ -10,7 +10,7 @@
 
 namespace roci::pathplan {
 
-/// Is an answer with what it stands on.
+/// Holds an answer with what it rests on.
 struct KeptAnswer {
   PathOutcome outcome;  ///< without way-points
   Polyline corners;     ///< of the path, if found

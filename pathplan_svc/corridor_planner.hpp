@@ -1,4 +1,5 @@
-/// The second stage of path planning: a fast drive near a guide that the grid search found.
+// The corridor planner is the second stage of path planning: it finds a fast drive near a guide that the grid
+// search found.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-/// Where the rover may go, and how hard it is: the site seen with the limits of the rover.
+// The costmap says where the rover may go, and how hard it is: the site seen with the limits of the rover.
 #pragma once
 
 #include <cstdint>
@@ -15,12 +15,12 @@ struct RoverLimits {
   double max_slope = 0.35;       ///< radians, of the plane under the rover
   double rock_clearance = 0.25;  ///< rocks above this height are obstacles
   double max_roughness = 0.30;   ///< largest distance of the ground from the plane under the rover
-  /// Is the largest difference of elevation between a cell and one that shares a side with it; 0: no limit. On a slope
+  /// Bounds the difference of elevation between a cell and one that shares a side with it; 0: no limit. On a slope
   /// that is allowed the difference is up to tan(max_slope) times the side of a cell.
   double max_step = 0;
 };
 
-/// Is an obstacle known at run time or a keep-out zone of the mission, in metres.
+/// Describes an obstacle known at run time or a keep-out zone of the mission, in metres.
 struct Disc {
   terrain::Point centre;
   double radius = 0;
@@ -54,7 +54,7 @@ class Costmap {
 
   /// Returns a number that grows with each change of a cell, from 1 on if nothing else is said.
   std::uint64_t version() const { return version_; }
-  /// Is said before the first change.
+  /// Sets the first version; it is to be called before the first change.
   void count_versions_from(std::uint64_t first) { version_ = first; }
 
   CellState state(std::size_t index) const { return state_[index]; }

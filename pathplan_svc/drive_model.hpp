@@ -1,4 +1,4 @@
-// Time and energy of driving, by slope, friction and slip.
+// The drive model gives time and energy of driving, by slope, friction and slip.
 #pragma once
 
 #include <algorithm>

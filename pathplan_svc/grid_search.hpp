@@ -1,4 +1,5 @@
-// Searches over the cells of the costmap: what hangs together, and the fastest drives from one cell to all others.
+// The grid search goes over the cells of the costmap: it finds what is connected, and the fastest drives from one
+// cell to all others.
 #pragma once
 #include <cstdint>
 #include <vector>

@@ -1,4 +1,5 @@
-// How far the path planner's tables may grow by what comes from the wire (docs/resilience.md, "What is bounded").
+// These limits bound how far the path planner's tables may grow by what comes from the wire (docs/resilience.md,
+// "What is bounded").
 #pragma once
 
 #include <cstddef>

@@ -186,10 +186,10 @@ void MapExchange::carry_out(const owner::Request& request) {
 void MapExchange::tell_as_commanded(const owner::CommandKey& key) {
   say(key, owner::Stage::accepted);
   tell([this, key](std::uint64_t version, std::size_t obstacles) {
-    owner::Word word{owner::Stage::completed, "", "", {}};
-    word.results.values = {{"map_version", static_cast<double>(version)},
-                           {"obstacles", static_cast<double>(obstacles)}};
-    commands_->say(key, std::move(word));
+    owner::CommandStatus status{owner::Stage::completed, "", "", {}};
+    status.results.values = {{"map_version", static_cast<double>(version)},
+                             {"obstacles", static_cast<double>(obstacles)}};
+    commands_->say(key, std::move(status));
   });
 }
 
@@ -228,13 +228,13 @@ void MapExchange::end_merges() {
     if (patch == nullptr || patch->map_version < one.version) return false;
     node_.cancel(one.timer);
     host_.settled([this, key = one.key, patch = *patch](std::uint64_t version) {
-      owner::Word word{owner::Stage::completed, "", "", {}};
-      word.results.values = {{"map_version", static_cast<double>(version)},
-                             {"obstacles", static_cast<double>(map_.all().size())},
-                             {"author_version", static_cast<double>(patch.map_version)},
-                             {"told_s", temporal::to_seconds(patch.told)},
-                             {"age_s", temporal::to_seconds(node_.now() - patch.told)}};
-      commands_->say(key, std::move(word));
+      owner::CommandStatus status{owner::Stage::completed, "", "", {}};
+      status.results.values = {{"map_version", static_cast<double>(version)},
+                               {"obstacles", static_cast<double>(map_.all().size())},
+                               {"author_version", static_cast<double>(patch.map_version)},
+                               {"told_s", temporal::to_seconds(patch.told)},
+                               {"age_s", temporal::to_seconds(node_.now() - patch.told)}};
+      commands_->say(key, std::move(status));
     });
     return true;
   });
@@ -252,7 +252,7 @@ void MapExchange::give_up(const owner::CommandKey& key) {
   say(key, owner::Stage::failed, "patch-missing", why);
 }
 
-void MapExchange::break_off(const owner::CommandKey& key, const owner::Word& why) {
+void MapExchange::break_off(const owner::CommandKey& key, const owner::CommandStatus& why) {
   const auto merge = std::ranges::find(merges_, key, &Merge::key);
   if (merge == merges_.end()) {
     commands_->refuse_cancel(key, "a map is told at once, and a patch that is there is merged at once");

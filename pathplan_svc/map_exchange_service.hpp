@@ -1,5 +1,5 @@
-// What a path planner hears of the terrain from its own robot and from the team, what it tells the team,
-// and what it shows who watches.
+// The map exchange is what a path planner hears of the terrain from its own robot and from the team, what it
+// tells the team, and what it shows to observers.
 #pragma once
 
 #include <functional>
@@ -66,7 +66,7 @@ class MapExchange final : private services::owner::Driver {
               const std::vector<std::pair<std::string, std::string>>& properties);
 
   void carry_out(const services::owner::Request&) override;
-  void break_off(const services::owner::CommandKey&, const services::owner::Word& why) override;
+  void break_off(const services::owner::CommandKey&, const services::owner::CommandStatus& why) override;
 
   services::Node& node_;
   const MapSettings settings_;

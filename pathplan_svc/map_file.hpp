@@ -1,4 +1,4 @@
-// What a mission file says of how the map of a robot is told.
+// This file reads what a mission file says of how the map of a robot is shared.
 #pragma once
 #include <cstdint>
 #include <string>

@@ -1,4 +1,4 @@
-// What became of a search for a path.
+// A path outcome says what became of a search for a path.
 #pragma once
 #include <cstdint>
 

@@ -1,4 +1,5 @@
-// Paths over the site and what they cost: what the service asks, over cost map, searches and table of answers.
+// The path planner finds paths over the site and what they cost: it answers the service, over cost map,
+// searches and table of answers.
 #pragma once
 #include <cstdint>
 #include <map>

@@ -3,14 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
+#include "core/durable/durable_file.hpp"
 #include "core/mission/mission_file.hpp"
 #include "core/mission/service_list.hpp"
 #include "core/terrain/site_file.hpp"
@@ -178,14 +179,18 @@ class PathplanService : public services::Service {
       hazards.push_back({{"found_by", one.finder},
                          {"id", one.id},
                          {"kind", one.kind == ObstacleKind::soil ? "soil" : "rock"},
+                         {"found_s", temporal::to_seconds(one.found)},
                          {"x_m", one.disc.centre.x},
                          {"y_m", one.disc.centre.y},
                          {"radius_m", one.disc.radius}});
     }
-    const std::filesystem::path next = std::filesystem::path(hazard_file_) += ".next";
-    std::ofstream(next) << hazards.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) << "\n";
-    std::error_code error;
-    std::filesystem::rename(next, hazard_file_, error);
+    try {
+      durable::replace_file(hazard_file_,
+                            hazards.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n",
+                            durable::Durability::process);
+    } catch (const std::system_error&) {
+      return;  // The next hazard writes all of them again.
+    }
   }
 
   void report(v1::Severity severity, const std::string& code, const std::string& text,

@@ -1,4 +1,4 @@
-// The path planner's process: what it answers over DDS.
+// This is the path planner's process: what it answers over DDS.
 #pragma once
 #include <memory>
 

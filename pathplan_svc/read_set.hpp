@@ -1,4 +1,5 @@
-// Which part of the map an answer stands on, so that a change elsewhere leaves it valid.
+// A read set is the part of the map on which an answer rests, so that a change elsewhere leaves the answer
+// valid.
 #pragma once
 #include <algorithm>
 #include <array>

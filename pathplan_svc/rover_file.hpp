@@ -1,4 +1,4 @@
-// The rover of a mission file, as the path planner needs it.
+// This file reads the rover of a mission file, as the path planner needs it.
 #pragma once
 #include <vector>
 

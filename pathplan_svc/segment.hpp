@@ -1,4 +1,4 @@
-// Straight pieces of a path over the costmap: are they free, and what do they cost.
+// This file says of straight pieces of a path over the costmap whether they are free, and what they cost.
 #pragma once
 #include <vector>
 

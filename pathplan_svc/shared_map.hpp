@@ -1,4 +1,5 @@
-/// What a robot knows of the terrain beyond the map that was loaded: what it found itself, and what others told it.
+// The shared map is what a robot knows of the terrain beyond the map that was loaded: what it found itself, and
+// what others told it.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +16,7 @@ namespace roci::pathplan {
 /// Says what a disc is: a rock stands in everybody's way, soil was judged not to bear a vehicle of the team.
 enum class ObstacleKind : std::uint8_t { rock, soil };
 
-/// Is the newest word of the robot that found it on one disc that nobody may enter.
+/// Holds the newest word of the robot that found it on one disc that nobody may enter.
 struct FoundObstacle {
   std::string finder;  ///< robot; with the id its name for good
   std::string id;
@@ -26,7 +27,7 @@ struct FoundObstacle {
   bool operator==(const FoundObstacle&) const = default;
 };
 
-/// Is all that its author knew beyond the loaded map.
+/// Holds all that its author knew beyond the loaded map.
 struct MapPatch {
   std::string author;  ///< service
   std::string robot;   ///< that the author belongs to
@@ -37,7 +38,7 @@ struct MapPatch {
   temporal::Time told{};          ///< when it was told
 };
 
-/// Is what is remembered of the newest patch of an author that was taken.
+/// Holds what is remembered of the newest patch of an author that was taken.
 struct TakenPatch {
   std::pair<std::uint32_t, std::uint64_t> number;
   std::uint64_t map_version = 0;

@@ -1,4 +1,4 @@
-// Paths with fewer corners.
+// Shortcuts make paths with fewer corners.
 #pragma once
 #include "pathplan_svc/segment.hpp"
 

@@ -1,4 +1,4 @@
-// Answers planning calls by the engines of a table, one call at a time.
+// The answering host answers planning calls by the engines of a table, one call at a time.
 #pragma once
 
 #include <atomic>
@@ -22,11 +22,11 @@
 
 namespace roci::planner {
 
-/// Calls wait in line and are answered on a thread of their own, while the loop goes on. That thread never
-/// touches the node: it hands the loop a function whenever it stops to wait (for values) or has ended.
+/// Answers queued calls on a thread of its own, while the loop goes on. That thread never touches the node:
+/// it hands the loop a function whenever it stops to wait (for values) or has ended.
 class AnsweringHost final : private engine::FunctionSource {
  public:
-  /// All outlive this.
+  /// All arguments must outlive this object.
   AnsweringHost(services::Node& node, const services::RunSettings& run, const Settings& settings,
                 const engine::Table& table);
   ~AnsweringHost() override;

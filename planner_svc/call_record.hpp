@@ -1,5 +1,5 @@
-// Keeps the newest planning calls of a run as files, so that its engine alone can make them again (R41). Of
-// temporal_pddl:
+// Call records keep the newest planning calls of a run as files, so that its engine alone can make them again
+// (R41). With temporal_pddl:
 //   roci-plan DOMAIN planner_calls/3.pddl --functions planner_calls/3.values --remaining
 //   planner_calls/3.remaining
 #pragma once
@@ -15,18 +15,20 @@
 
 namespace roci::planner {
 
+/// Writes records of calls into a folder, and removes the oldest beyond kKept. A failure to write ends no
+/// mission.
 class CallRecords {
  public:
-  /// So many calls are kept; one of a long mission takes some 10 kB.
+  /// Bounds the calls that are kept; one of a long mission takes some 10 kB.
   static constexpr std::size_t kKept = 250;
 
-  /// An empty path: nothing is kept. The folder is made with the first call; numbers go on after those that
-  /// are there already.
+  /// Keeps nothing if the path is empty. The folder is made with the first call; numbers go on after those
+  /// that are there already.
   explicit CallRecords(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
-  /// Writes the engine's own record of the call, N with each of its endings, and N.json: verdict, reason,
-  /// wall_s, evaluated, expanded, function_requests, function_tuples, exact_values, from_remaining, actions. What
-  /// cannot be written is left out: a record is no reason to end a mission. The oldest calls beyond kKept are removed.
+  /// Writes the engine's own record of the call, N with each of its endings, and N.json: verdict, reason, wall_s,
+  /// evaluated, expanded, function_requests, function_tuples, exact_values, from_remaining, actions. What cannot be
+  /// written is left out.
   void keep(const engine::Answer& answer, double wall_s);
 
  private:

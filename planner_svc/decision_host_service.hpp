@@ -1,4 +1,4 @@
-// Answers decisions of running plans by the engine that made them (R131).
+// The decision host answers decisions of running plans by the engine that made them (R131).
 #pragma once
 
 #include <map>
@@ -14,11 +14,12 @@
 
 namespace roci::planner {
 
-/// Hears plans, observations and questions, and asks the resolver whenever something is new that it could decide on.
-/// One that is asked again after a restart gets the same answer under the same key, which the executive takes once.
+/// Hears plans, observations and questions, and asks the resolver whenever something new could decide one. A
+/// question that is asked again after a restart gets the same answer under the same key, which the executive takes
+/// once.
 class DecisionHost {
  public:
-  /// `settings` outlives this.
+  /// `settings` must outlive this object.
   DecisionHost(services::Node& node, const Settings& settings,
                std::unique_ptr<engine::DecisionResolver> resolver);
 

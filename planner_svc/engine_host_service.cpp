@@ -12,11 +12,12 @@ namespace roci::planner {
 namespace {
 
 // Of several planners of a mission each has a folder of its own.
-std::filesystem::path networks_folder(const services::Node& node, const services::RunSettings& run) {
+std::filesystem::path folder_of(const services::Node& node, const services::RunSettings& run,
+                                const std::string& name) {
   if (run.run_folder.empty()) return {};
   const auto list =
       run.mission.empty() ? mission::ServiceList{} : mission::load_service_list_if_any(run.mission);
-  return run.run_folder / list.file_name(node.options().name, "networks");
+  return run.run_folder / list.file_name(node.options().name, name);
 }
 
 class EngineHost final : public services::Service {
@@ -24,7 +25,9 @@ class EngineHost final : public services::Service {
   EngineHost(services::Node& node, const services::RunSettings& run, const engine::Table& table)
       : settings_(read_settings(run.mission_file(), table)), answering_(node, run, settings_, table) {
     if (engine::stepped_named(table, settings_.engine) != nullptr)
-      stepped_.emplace(node, settings_, table.at(settings_.engine), networks_folder(node, run));
+      stepped_.emplace(
+          node, settings_, table.at(settings_.engine), folder_of(node, run, "networks"),
+          settings_.keep_steps ? folder_of(node, run, "planner_steps") : std::filesystem::path{});
     if (const auto entry = table.find(settings_.engine); entry != table.end() && entry->second.make_resolver)
       decisions_.emplace(node, settings_,
                          entry->second.make_resolver({settings_.engine, node.options().robot, settings_.model,

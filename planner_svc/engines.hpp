@@ -1,11 +1,11 @@
-// The engines that the planner is shipped with.
+// These are the engines that the planner is shipped with.
 #pragma once
 
 #include "planner_svc/engine/table.hpp"
 
 namespace roci::planner {
 
-/// The one table of engines: whoever adds one names it in engines.cpp and nowhere else.
+/// Returns the one table of engines: a new engine is named in engines.cpp and nowhere else.
 const engine::Table& engines();
 
 }  // namespace roci::planner

@@ -1,37 +1,39 @@
-// How far the planner's tables may grow by what comes from the wire. What is beyond is not taken in; the event
-// planner.no_room tells it (docs/resilience.md, "What is bounded").
+// These limits bound how far the planner's tables may grow by what comes from the wire. What is beyond is not
+// taken in; the event planner.no_room reports it (docs/resilience.md, "What is bounded").
 #pragma once
 
 #include <cstddef>
 
 namespace roci::planner {
 
-/// Goals and timelines that an engine which plans all the time hears of: as many as an executive keeps.
+/// Bound the goals and timelines that an engine which plans all the time hears of: as many as an executive
+/// keeps.
 inline constexpr std::size_t kGoals = 10'000;
 inline constexpr std::size_t kTimelines = 10'000;
-/// Activities of the executed version whose progress is kept: those of the largest plan that the wire carries.
+/// Bounds the activities of the executed version whose progress is kept: those of the largest plan that the
+/// wire carries.
 inline constexpr std::size_t kActivities = 100'000;
-/// Numbers that one command brought.
+/// Bounds the numbers that one command brought.
 inline constexpr std::size_t kResultValues = 64;
-/// Commands whose results are kept until their activity has left the plan.
+/// Bounds the commands whose results are kept until their activity has left the plan.
 inline constexpr std::size_t kResults = 10'000;
-/// Data products that such an engine hears of.
+/// Bounds the data products that such an engine hears of.
 inline constexpr std::size_t kProducts = 2'000;
-/// Offers of functions: a module for each of 256 owners.
+/// Bounds the offers of functions: a module for each of 256 owners.
 inline constexpr std::size_t kOffers = 256;
-/// Orders of the ground about the network, in a run; bytes of one network; how many wait for a cycle; reasons of a
-/// refusal, and bytes of one.
+/// Bound the ground's orders about the network in a run, the bytes of one network, the networks that wait for a
+/// cycle, the reasons of a refusal, and the bytes of one.
 inline constexpr std::size_t kNetworkOrders = 1'000;
 inline constexpr std::size_t kNetworkBytes = 8U << 20U;
 inline constexpr std::size_t kNetworksWaiting = 4;
 inline constexpr std::size_t kReasons = 50;
 inline constexpr std::size_t kReasonBytes = 2'000;
-/// Bytes of a downlink schedule or a mission outlook, well below what their topics carry:
-/// what has no room is counted in them.
+/// Bounds the bytes of a downlink schedule or a mission outlook, well below what their topics carry; they
+/// count what had no room.
 inline constexpr std::size_t kOutlookBytes = 8U << 20U;
-/// Decisions of running plans that are open at one time.
+/// Bounds the decisions of running plans that are open at one time.
 inline constexpr std::size_t kDecisions = 1'000;
-/// Bytes of a name that is kept.
+/// Bounds the bytes of a name that is kept.
 inline constexpr std::size_t kNameBytes = 1'024;
 
 }  // namespace roci::planner

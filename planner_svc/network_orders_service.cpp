@@ -6,7 +6,7 @@
 
 #include "planner_svc/limits.hpp"
 #include "services/node/make_event.hpp"
-#include "services/topics.hpp"
+#include "services/topics/topics.hpp"
 
 namespace roci::planner {
 

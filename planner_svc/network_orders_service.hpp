@@ -1,4 +1,4 @@
-// Orders of the ground about the model of an engine that plans all the time:
+// This part of the planner takes orders of the ground about the model of an engine that plans all the time:
 // networks and values of parameters (R83, R116, R118).
 #pragma once
 
@@ -16,21 +16,22 @@
 
 namespace roci::planner {
 
-/// An order is given once: the same key again is answered with where it stands. What is wrong with it as a message (no
-/// right to it, cut short, another checksum, too large) is refused here, before the engine sees it. What the engine
-/// takes is kept in the run folder before it is called accepted.
+/// Gives each order once: a repeated key is answered with where the order stands. A message that is wrong in itself
+/// (no right to it, cut short, another checksum, too large) is refused here, before the engine sees it. What the
+/// engine takes is kept in the run folder before it counts as accepted.
 class NetworkOrders {
  public:
-  /// `heard` is called when there is something to take(). Settings and node outlive this. Tells (event
-  /// "planner.network_damaged") of what was kept and cannot be read; then the mission's own model is in force.
+  /// Calls `heard` when there is something to take(). Settings and node must outlive this object. If what was
+  /// kept cannot be read, the event "planner.network_damaged" says so, and the mission's own model is in
+  /// force.
   NetworkOrders(services::Node& node, const Settings& settings, const std::filesystem::path& folder,
                 std::function<void()> heard);
   NetworkOrders(const NetworkOrders&) = delete;
   NetworkOrders& operator=(const NetworkOrders&) = delete;
 
-  /// Returns the file of the newest model that was taken; empty: the mission's is in force.
+  /// Returns the file of the newest model that was taken, or an empty path if the mission's is in force.
   std::filesystem::path model_file() const;
-  /// The engine does not take what was kept.
+  /// Takes in that the engine does not take what was kept.
   void give_up_kept(const std::string& why);
 
   bool waiting() const { return !waiting_.empty(); }
@@ -40,14 +41,16 @@ class NetworkOrders {
     replaced,  ///< model_file() is another one
     unkept,  ///< the engine has a model that could not be kept: it is refused, and the engine is to be made anew
   };
-  /// What the engine made of those that were taken; `last_version` is that of the newest plan before.
+  /// Takes in what the engine made of the changes that were taken; `last_version` is that of the newest plan
+  /// before.
   Model answer(const std::vector<engine::ModelAnswer>& answers, const engine::ModelName& model,
                std::uint32_t last_version);
-  /// The engine has failed at those that were taken.
+  /// Takes in that the engine has failed at the changes that were taken.
   void fail(const std::string& why);
-  /// The executive runs this version of the plan.
+  /// Takes in that the executive runs this version of the plan.
   void executed(std::uint32_t version);
-  /// No plan runs, and the engine has none to make: what was accepted is in force without a version of the plan.
+  /// Takes in that no plan runs and the engine has none to make: accepted changes are in force without a version
+  /// of the plan.
   void nothing_to_plan();
 
  private:

@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "core/durable/durable_file.hpp"
 #include "planner_svc/limits.hpp"
-#include "services/process/durable_file.hpp"
 
 namespace roci::planner {
 
@@ -100,12 +100,11 @@ void NetworkStore::keep(KeptNetworks& kept, const std::string* model) const {
   if (model != nullptr) {
     checksum = checksum_of(*model);
     name = "network-" + std::to_string(checksum) + ".htn";
-    services::process::replace_file(file(name), *model);
+    durable::replace_file(file(name), *model);
   }
   json list{{"format", kFormat}, {"model", name}, {"checksum", checksum}, {"orders", json::array()}};
   for (const NetworkRecord& one : kept.orders) list["orders"].push_back(to_json(one));
-  services::process::replace_file(file(kList),
-                                  list.dump(1, ' ', false, json::error_handler_t::replace) + "\n");
+  durable::replace_file(file(kList), list.dump(1, ' ', false, json::error_handler_t::replace) + "\n");
   std::error_code ignored;
   if (!kept.model.empty() && kept.model != name) fs::remove(file(kept.model), ignored);
   kept.model = std::move(name);

@@ -1,4 +1,5 @@
-// What the ground has changed of the engine's model, in the run folder: it outlives the planner's process.
+// The network store keeps in the run folder what the ground has changed of the engine's model, so that it
+// outlives the planner's process.
 #pragma once
 
 #include <cstdint>
@@ -11,10 +12,10 @@
 
 namespace roci::planner {
 
-/// How far an order of the ground has come: in the order of NetworkStage in idl/network.idl.
+/// Says how far an order of the ground has come, in the order of NetworkStage in idl/network.idl.
 enum class NetworkStage { received, refused, accepted, in_force };
 
-/// Is one order and where it stands.
+/// Holds one order and where it stands.
 struct NetworkRecord {
   std::string issuer;
   std::string id;
@@ -28,11 +29,12 @@ struct NetworkRecord {
   friend bool operator==(const NetworkRecord&, const NetworkRecord&) = default;
 };
 
+/// Holds the ground's orders, and the newest model that they brought.
 struct KeptNetworks {
   std::vector<NetworkRecord> orders;
   /// Names the file that holds the newest model of the ground; empty: the mission's is in force.
   std::string model;
-  std::uint32_t checksum = 0;  ///< of that file
+  std::uint32_t checksum = 0;  ///< of the file
   friend bool operator==(const KeptNetworks&, const KeptNetworks&) = default;
 };
 

@@ -1,4 +1,4 @@
-// The planner as a process: hosts the engines that it is shipped with.
+// This is the planner as a process, with the engines that it is shipped with.
 #pragma once
 
 #include <memory>
@@ -7,7 +7,7 @@
 
 namespace roci::planner {
 
-/// host_engines() with the table of engines.cpp.
+/// Makes host_engines() with the table of engines.cpp.
 std::unique_ptr<services::Service> make_service(services::Node&, const services::RunSettings&);
 
 }  // namespace roci::planner

@@ -55,6 +55,7 @@ Settings read_settings(const std::filesystem::path& mission, const engine::Table
   const auto planner = root.find("planner");
   if (!planner) return out;
   out.engine = planner->text_or("engine", "");
+  out.keep_steps = planner->truth_or("keep_steps", out.keep_steps);
   read_resolvers(*planner, table, out);
   out.function_timeout = temporal::seconds(planner->number_or("function_timeout_s", 20));
   if (const auto budget = planner->find("budget")) {

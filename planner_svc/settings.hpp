@@ -1,4 +1,4 @@
-// What a mission file says about its planner.
+// This file reads what a mission file says about its planner.
 #pragma once
 
 #include <cstdint>
@@ -13,27 +13,31 @@
 
 namespace roci::planner {
 
+/// Holds the `planner` section of mission.yaml, with defaults for what is missing.
 struct Settings {
-  std::string engine;  ///< that the mission names; empty: none
+  std::string engine;  ///< engine that the mission names; empty: none
   std::string model;   ///< text of the mission's model in that engine's language; empty: the mission has none
-  std::filesystem::path model_file{};                           ///< from which that was read
-  temporal::Duration function_timeout = temporal::seconds(20);  ///< for one batch of values
-  /// Evaluations that a call may spend on better plans once it has one; see engine::Request.
+  std::filesystem::path model_file{};                           ///< file from which the model was read
+  temporal::Duration function_timeout = temporal::seconds(20);  ///< time for one batch of values
+  /// Bounds the evaluations that a call may spend on better plans once it has one; see engine::Request.
   std::uint64_t improvement = engine::kImprovement;
-  /// Which values of external functions are asked for: `functions: eager`, `lazy` or `two_accuracy`.
+  /// Says which values of external functions are asked for: `functions: eager`, `lazy` or `two_accuracy`.
   engine::FunctionsMode functions = engine::FunctionsMode::eager;
-  /// Ways to search that run side by side, and on how many threads (engine::Request).
+  /// Name the ways to search that run side by side, and the number of threads (engine::Request).
   std::vector<std::string> resolvers{};
   std::size_t threads = 1;
-  /// What the ground may change of it in flight: `network`, `parameters`, of the mission's `ground: {uploads: …}`.
+  /// Says whether each step of an engine that plans all the time is kept in the run folder (step_records.hpp).
+  bool keep_steps = true;
+  /// Lists what the ground may change of it in flight: `network`, `parameters`, of the mission's `ground:
+  /// {uploads: …}`.
   std::vector<std::string> uploads{};
-  /// Mission time that a call takes under the simulated clock.
+  /// Give the mission time that a call takes under the simulated clock, in seconds.
   double simulated_base_s = 0.5;
   double simulated_per_evaluation_s = 0.0005;
 };
 
-/// `planner` in mission.yaml of the folder, and the text of the file that `model` names there; defaults for
-/// what is not there. Throws as mission::Entry does, also for resolvers that the engine of this table does not have.
+/// Reads `planner` in mission.yaml of the folder, and the text of the file that `model` names there. Throws as
+/// mission::Entry does, also for resolvers that the engine of this table does not have.
 Settings read_settings(const std::filesystem::path& mission, const engine::Table& table = {});
 
 }  // namespace roci::planner

@@ -36,20 +36,33 @@ std::string version_text(std::uint32_t version) { return "version " + std::to_st
 }  // namespace
 
 SteppedHost::SteppedHost(services::Node& node, const Settings& settings, const engine::TableEntry& entry,
-                         const std::filesystem::path& networks)
+                         const std::filesystem::path& networks, const std::filesystem::path& steps)
     : node_(node),
       entry_(entry),
       orders_(node, settings, networks, [this] { step_soon(); }),
       setup_{settings.engine, node.options().robot, settings.model, settings.model_file, settings.resolvers},
       engine_(make_engine()),
+      records_(steps),
       checker_(entry.make_checker()),
       deltas_(services::advertise(node, topics::plan_delta)),
       schedules_(services::advertise(node, topics::downlink_schedule)),
       outlooks_(services::advertise(node, topics::mission_outlook)),
       events_(services::advertise(node, topics::event)),
       worker_(node) {
+  begin_record();
   subscribe_all();
   step_soon();
+}
+
+// Before the engine's first step: what it is made with is what the steps of the record are made again with.
+void SteppedHost::begin_record() {
+  records_.begin({setup_.engine, setup_.robot, setup_.resolvers, engine_->packed_model()});
+}
+
+void SteppedHost::record(const engine::StepOutcome& outcome) {
+  records_.did(outcome);
+  if (const std::string end = records_.take_end(); !end.empty())
+    report(v1::SEVERITY_WARNING, "planner.record_ended", end);
 }
 
 // A model of the ground that was kept is in force; one that cannot be used is told and forgotten.
@@ -241,6 +254,7 @@ void SteppedHost::begin_step() {
   versions_.give(inputs);
   if (inputs.executed) tell_again(inputs);
   inputs.model_changes = orders_.take();
+  records_.heard(inputs);
   worker_.compute(
       [engine = engine_, inputs = std::move(inputs)](const std::stop_token&) {
         StepResult result;
@@ -256,6 +270,7 @@ void SteppedHost::begin_step() {
 
 void SteppedHost::end_step(Time now, StepResult result) {
   stepping_ = false;
+  record(engine::outcome_of(result.output, result.error));
   const bool heard_more = !heard_.goals.empty() || !heard_.ended_goals.empty() ||
                           !heard_.observations.empty() || !heard_.steps.empty() || !heard_.products.empty() ||
                           !heard_.results.empty() || heard_.receipt || heard_.executed || orders_.waiting();
@@ -318,6 +333,7 @@ std::string SteppedHost::refusal_of(Time now, const PlanDelta& delta, FlexiblePl
 // The new engine hears again all that still counts, with the next thing that is heard.
 void SteppedHost::make_anew() {
   engine_ = std::get<MakeStepped>(entry_.make)(setup_);  // its model was taken before
+  begin_record();
   heard_ = {};
   for (const auto& [key, heard] : goals_)
     if (heard.told) heard_.goals.push_back(*heard.goal);
@@ -328,14 +344,8 @@ void SteppedHost::make_anew() {
 
 // Before the version goes out: whoever sees both reads what led to it first.
 void SteppedHost::tell_account(const engine::StepOutput& output) {
-  const engine::StepAccount& account = output.account;
-  if (account.empty()) return;
-  std::string text;
-  for (const std::string& part : account.parts) text += (text.empty() ? "" : ", ") + part;
-  text += (text.empty() ? "" : "; ") + std::to_string(account.explored) + " explored";
-  if (output.delta) text += "; " + version_text(output.delta->added.version);
-  for (const std::string& note : account.notes) text += "; " + note;
-  report(v1::SEVERITY_INFO, "planner.cycle", text);
+  if (const std::string text = engine::account_text(output); !text.empty())
+    report(v1::SEVERITY_INFO, "planner.cycle", text);
 }
 
 void SteppedHost::tell_outlook(Time now, const engine::StepOutput& output) {

@@ -1,4 +1,4 @@
-// Steps an engine that plans all the time, and sends the versions of its plan.
+// The stepped host steps an engine that plans all the time, and sends the versions of its plan.
 #pragma once
 
 #include <cstdint>
@@ -14,6 +14,7 @@
 #include "planner_svc/engine/version_exchange.hpp"
 #include "planner_svc/network_orders_service.hpp"
 #include "planner_svc/settings.hpp"
+#include "planner_svc/step_records.hpp"
 #include "roci_idl/goal.h"
 #include "roci_idl/health.h"
 #include "roci_idl/outlook.h"
@@ -25,15 +26,17 @@
 
 namespace roci::planner {
 
-/// What is heard within one turn of the loop is one step. Under the simulated clock steps have their place in
-/// mission time and take none of it. A version that the engine's checker refuses is told (event
-/// "planner.defect") and never sent.
+/// Steps the engine once for all that is heard within one turn of the loop. Under the simulated clock steps
+/// have their place in mission time and take none of it. A version that the engine's checker refuses is
+/// reported (event "planner.defect") and never sent.
 class SteppedHost {
  public:
-  /// All outlive this. `entry` makes an engine that plans all the time. Throws what it throws.
-  /// `networks`: where what the ground changes of the engine's model is kept; empty: nothing is taken of it.
+  /// Hosts the engine that `entry` makes, which plans all the time; throws what that throws. All arguments
+  /// must outlive this object. `networks` is the folder that keeps what the ground changes of the engine's
+  /// model; if it is empty, no change is taken. `steps` is the folder that keeps the engine's steps; if it is
+  /// empty, none are kept.
   SteppedHost(services::Node& node, const Settings& settings, const engine::TableEntry& entry,
-              const std::filesystem::path& networks);
+              const std::filesystem::path& networks, const std::filesystem::path& steps);
   SteppedHost(const SteppedHost&) = delete;
   SteppedHost& operator=(const SteppedHost&) = delete;
 
@@ -51,7 +54,7 @@ class SteppedHost {
   };
 
   void subscribe_all();
-  /// Whether a table may take in what it knows by this name, or not yet.
+  /// Returns whether a table has room for this name, or knows it already.
   template <class Table>
   bool has_room(const Table& table, const typename Table::key_type& name, std::size_t room, const char* what);
   bool is_ours(const v1::SampleHeader& header) const;
@@ -73,6 +76,8 @@ class SteppedHost {
                          temporal::FlexiblePlan& next) const;
   std::shared_ptr<engine::SteppedEngine> make_engine();
   void make_anew();
+  void begin_record();
+  void record(const engine::StepOutcome& outcome);
   void tell_account(const engine::StepOutput& output);
   void tell_outlook(temporal::Time now, const engine::StepOutput& output);
   void tell_blocking(std::vector<engine::BlockingGoal> blocking);
@@ -83,6 +88,7 @@ class SteppedHost {
   NetworkOrders orders_;
   engine::Setup setup_;
   std::shared_ptr<engine::SteppedEngine> engine_;
+  StepRecords records_;
   std::unique_ptr<engine::Checker> checker_;
   services::Publisher<v1::PlanDelta> deltas_;
   services::Publisher<v1::DownlinkSchedule> schedules_;

@@ -1,4 +1,5 @@
-// Planning calls, function values and what engines that plan all the time hear, in their wire form.
+// This file translates planning calls, function values and what engines that plan all the time hear to and
+// from their wire form.
 #pragma once
 
 #include <string>
@@ -17,26 +18,26 @@
 
 namespace roci::planner {
 
-/// Budget of wall time and cancellation are the caller's to add. Of more than 1,000 remaining actions the
-/// first are taken, and none with a time that a plan cannot have. Throws services::wire::WireError.
+/// Reads a request; the caller adds budget of wall time and cancellation. At most the first 1,000 remaining
+/// actions are taken, and none with a time that a plan cannot have. Throws services::wire::WireError.
 engine::Request from_wire(const v1::PlanRequest&);
 
-/// Leaves out what only the machine knows: wall time and memory.
+/// Translates an answer without what only the machine knows: wall time and memory.
 v1::PlanReply to_wire(const engine::Answer&);
 v1::PlanReply cancelled_reply();
 
-/// `calls`: of one function. Arguments that are no objects of the request are added to them: constants of the
-/// domain, which their owner knows by name.
+/// Translates `calls` of one function. Arguments that are no objects of the request are added to its objects:
+/// they are constants of the domain, which their owner knows by name.
 v1::FunctionRequest to_wire(const std::vector<engine::FunctionCall>& calls,
                             const std::vector<engine::Object>& objects);
 
-/// One value for each call, in their order. `asked`: who was asked, by which offer, when.
+/// Returns one value for each call, in their order. `asked` says who was asked, by which offer, and when.
 std::vector<engine::FunctionValue> values_of(const std::vector<engine::FunctionCall>& calls,
                                              const engine::Provenance& asked,
                                              const services::CallResult<v1::FunctionReply>&);
 
 engine::Goal from_wire(const v1::Goal&);
-/// Throws services::wire::WireError.
+/// Reads an observation. Throws services::wire::WireError.
 engine::Observation from_wire(const v1::Observation&);
 engine::DataProduct from_wire(const v1::DataProduct&);
 engine::StepStatus from_wire(const v1::StepStatus&);

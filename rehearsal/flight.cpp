@@ -16,7 +16,7 @@
 #include "services/node/make_event.hpp"
 #include "services/process/link_report.hpp"
 #include "services/publisher.hpp"
-#include "services/topics.hpp"
+#include "services/topics/topics.hpp"
 #include "services/transport/plug_ins.hpp"
 
 namespace roci::rehearsal {

@@ -1,4 +1,4 @@
-// One flight of a mission with all services in this process, over the inproc transport, on the simulated
+// A flight takes a mission with all services in this process, over the inproc transport, on the simulated
 // clock.
 #pragma once
 
@@ -34,6 +34,7 @@ services::node::NodeOptions node_options(const std::filesystem::path& mission, c
 /// of somebody else (loaded.hpp). Throws std::invalid_argument, with the remedy, where there is none.
 services::MakeService* make_of(const mission::ServiceEntry&, const std::vector<Program>& more = {});
 
+/// Says what is flown and how fast.
 struct FlightOptions {
   services::RunSettings run;
   int domain = 1;   ///< flights with different domains do not hear each other

@@ -1,4 +1,5 @@
-// Programs of others in a rehearsal: rocinante_service() builds beside each program a file that holds the same service.
+// Programs of others take part in a rehearsal: rocinante_service() builds beside each program a file that holds the
+// same service.
 #pragma once
 
 #include <filesystem>

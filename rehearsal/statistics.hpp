@@ -1,5 +1,5 @@
-// What several flights of a mission have in common: how often each effect came about and each kind of data came home
-// (R119: predict by flying many).
+// Statistics say what several flights of a mission have in common: how often each effect came about and each kind of
+// data came home (R119: predict by flying many).
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,5 @@
-/// What ground usually looks like, learnt from the images of this run, and how far a patch is from it.
+// The background is what ground usually looks like, learnt from the images of this run, and how far a patch
+// is from it.
 #pragma once
 #include <Eigen/Core>
 #include <cstddef>
@@ -9,14 +10,14 @@
 
 namespace roci::science {
 
-/// Is the anomaly detector of Reed and Yu, "Adaptive multiple-band CFAR detection of an optical pattern with unknown
-/// spectral distribution", IEEE Trans. Acoustics, Speech, and Signal Processing 38 (1990), known as RX, on features of
-/// patches instead of spectral bands: the squared Mahalanobis distance of a patch from the mean of the background. On
-/// images of Mars it is one of the peers in Kerner et al., "Comparison of novelty detection methods for multispectral
-/// images in rover-based planetary exploration missions", Data Mining and Knowledge Discovery 34 (2020). Texture
-/// depends on how far away ground lies, so the background has a mean and a covariance for each band of ranges, drawn
-/// towards those of all ranges where little was seen; what lies far off takes no part in a second round, so that a
-/// target does not hide itself.
+/// Implements the anomaly detector of Reed and Yu, "Adaptive multiple-band CFAR detection of an optical pattern with
+/// unknown spectral distribution", IEEE Trans. Acoustics, Speech, and Signal Processing 38 (1990), known as RX, on
+/// features of patches instead of spectral bands: the squared Mahalanobis distance of a patch from the mean of the
+/// background. On images of Mars it is one of the peers in Kerner et al., "Comparison of novelty detection methods for
+/// multispectral images in rover-based planetary exploration missions", Data Mining and Knowledge Discovery 34 (2020).
+/// Texture depends on how far away ground lies, so the background has a mean and a covariance for each band of ranges,
+/// drawn towards those of all ranges where little was seen; what lies far off takes no part in a second round, so that
+/// a target does not hide itself.
 class Background {
  public:
   /// Takes an image's patches into the background; the oldest image goes when there are more than kBackgroundImages.

@@ -1,4 +1,4 @@
-/// From pixels to places: where on the ground lies what a pixel shows.
+// This file leads from pixels to places: where on the ground lies what a pixel shows.
 #pragma once
 #include <optional>
 
@@ -6,8 +6,8 @@
 
 namespace roci::science {
 
-/// Is what is known of a camera: a pinhole on a mast, that looks ahead and down; pixels are square (Hartley and
-/// Zisserman, "Multiple View Geometry in Computer Vision", 2nd ed. 2004, chapter 6).
+/// Holds what is known of a camera: a pinhole on a mast, that looks ahead and down; pixels are square (Hartley
+/// and Zisserman, "Multiple View Geometry in Computer Vision", 2nd ed. 2004, chapter 6).
 struct CameraModel {
   double mast_m = 1.9;
   double tilt_deg = 18;  ///< of the middle of the image below the horizon
@@ -23,7 +23,8 @@ struct Viewpoint {
   double heading = 0;
 };
 
-/// Is the ground as the map has it; flat at 0 m, without an end, where there is none. The site outlives this.
+/// Holds the ground as the map has it; flat at 0 m, without an end, where there is none. The site outlives
+/// this.
 struct MappedGround {
   const terrain::Site* site = nullptr;
 

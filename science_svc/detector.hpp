@@ -29,21 +29,21 @@ struct DetectorSettings {
   std::vector<std::string> warnings{};  ///< of the reader, "place: warning: what (remedy)"
 };
 
-/// Is an image with the place and the direction from which it was taken.
+/// Holds an image with the place and the direction from which it was taken.
 struct Photo {
   std::string id;
   Viewpoint from;
   terrain::GreyImage pixels;
 };
 
-/// Is a place that looks unlike the ground around it.
+/// Describes a place that looks unlike the ground around it.
 struct Candidate {
   terrain::Point place;
   double score = 0;  ///< 0 … 1
   Window window;     ///< where the image shows it
 };
 
-/// Is a place that deserves a goal.
+/// Describes a place that deserves a goal.
 struct Find {
   std::string id;  ///< says the place: find-e74n52 lies 74 m east and 52 m north of the map's origin
   terrain::Point place;

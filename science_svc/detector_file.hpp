@@ -1,4 +1,4 @@
-// The settings of the detector in mission and scenario files.
+// This file reads the settings of the detector in mission and scenario files.
 #pragma once
 #include "core/mission/entry.hpp"
 #include "science_svc/detector.hpp"

@@ -1,4 +1,5 @@
-// How far the detector's memory may grow by what comes from the wire (docs/resilience.md, "What is bounded").
+// These limits bound how far the detector's memory may grow by what comes from the wire (docs/resilience.md,
+// "What is bounded").
 #pragma once
 
 #include <cstddef>

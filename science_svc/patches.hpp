@@ -1,4 +1,4 @@
-/// Images as sets of patches, each described by numbers that say what its ground looks like.
+// Images are taken as sets of patches, each described by numbers that say what its ground looks like.
 #pragma once
 #include <Eigen/Core>
 #include <vector>
@@ -16,7 +16,7 @@ inline constexpr int kFeatures = 10;
 /// that are no uniform edge.
 using Features = Eigen::Matrix<double, kFeatures, 1>;
 
-/// Is a rectangle of ground in an image.
+/// Holds a rectangle of ground in an image.
 struct Patch {
   Window window;
   terrain::Point ground;  ///< what its middle shows

@@ -1,4 +1,4 @@
-/// Images as they come from the wire: read with limits, cut with marks.
+// Images come from the wire: they are read with limits, and cut with marks.
 #pragma once
 #include <string>
 #include <string_view>
@@ -12,7 +12,7 @@ namespace roci::science {
 /// there, not for what a header claims.
 terrain::GreyImage read_picture(std::string_view file, const std::string& id);
 
-/// Is a rectangle of pixels; `left` and `top` are its first ones.
+/// Holds a rectangle of pixels; `left` and `top` are its first ones.
 struct Window {
   int left = 0;
   int top = 0;

@@ -1,4 +1,5 @@
-// A service's one door to the others: publishers, subscriptions, timers and calls, all on one event loop.
+// The node is a service's one door to the others: publishers, subscriptions, timers and calls, all on one
+// event loop.
 //
 // Handlers run on the thread that calls run(), one at a time. Live, samples are handled as they come; under
 // the simulated clock a handler sees the samples of one micro-step in the order (topic, sender, incarnation,
@@ -26,7 +27,8 @@ namespace node {
 class NodeImpl;
 }
 
-/// The untyped half that typed wrappers stand on; see publisher.hpp for Publisher<T> and subscribe<T>().
+/// Runs one event loop, on which all handlers of a service are called. publisher.hpp has its typed half,
+/// Publisher<T> and subscribe<T>().
 class Node {
  public:
   Node(node::NodeOptions, std::unique_ptr<transport::Transport>);
@@ -38,21 +40,21 @@ class Node {
   temporal::Time now() const;
 
   using TimerId = std::uint64_t;
-  /// Fires at this mission time; at a past one in the next turn of the loop.
+  /// Fire at a mission time, or after a duration; what is due already fires in the next turn of the loop.
   TimerId at(temporal::Time, std::function<void()>);
   TimerId after(temporal::Duration, std::function<void()>);
   void cancel(TimerId);
 
-  /// The handler is called in each turn of the loop, before timers fire: at least four times a second of wall
+  /// Calls the handler in each turn of the loop, before timers fire: at least four times a second of wall
   /// time, also while the simulated clock stands still.
   void on_turn(std::function<void()>);
 
-  /// The services of the mission that a link of the scenario joins to this one, with the light time there and
-  /// back: by so much later may an answer come, and it may be lost.
+  /// Returns the services of the mission that a link of the scenario joins to this one, with the light time
+  /// there and back: an answer may come later by that, or be lost.
   std::map<std::string, temporal::Duration> round_trips() const;
-  /// What has become of what came over links so far, by name of the link.
+  /// Returns what has become of the samples that came over links so far, by name of the link.
   std::map<std::string, link::Counts> link_counts() const;
-  /// What of it did not arrive at an attempt, in the order in which that became known here.
+  /// Returns the samples that did not arrive at an attempt, in the order in which that became known here.
   const std::vector<link::LostSample>& lost_samples() const;
 
   void on_peer_change(std::function<void(const health::PeerChange&)>);
@@ -61,10 +63,10 @@ class Node {
   /// Returns how many samples of other runs were left unread, by run.
   const std::map<std::string, std::uint64_t>& foreign_runs() const;
 
-  /// These let a worker thread hand a result to the loop. Under the simulated clock the loop does not answer
-  /// its barrier between begin_work() and the end of the posted function, and results run in the order in
-  /// which their works began, so that a worker's result has one place in mission time. post_work_result may
-  /// be called from any thread.
+  /// Let a worker thread hand a result to the loop. Under the simulated clock the loop does not answer its
+  /// barrier between begin_work() and the end of the posted function, and results run in the order in which
+  /// the work began, so that a worker's result has one place in mission time. post_work_result may be called
+  /// from any thread.
   using WorkId = std::uint64_t;
   WorkId begin_work();
   void post_work_result(WorkId, std::function<void()>);
@@ -79,7 +81,7 @@ class Node {
   /// to handle. Throws std::logic_error under the simulated clock.
   void spin_once(std::chrono::milliseconds wait);
 
-  /// Only the typed halves use it (publisher.hpp, rpc.hpp).
+  /// Serves the typed halves alone (publisher.hpp, rpc.hpp).
   node::NodeImpl& impl() { return *impl_; }
 
  private:

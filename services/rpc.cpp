@@ -121,7 +121,7 @@ void Calls<Request, Reply>::serve(Node& node, const topics::Procedure<Request, R
               auto pending = std::make_shared<rpc::PendingReply>(server, header.request_id(), write,
                                                                  may_ask_again(node, request.header()));
               if (server->open() > bounds::kOpenRequests) {
-                node.impl().refusals.note(name, node::Refusal::no_room);
+                node.impl().rejected.note(name, node::SampleRejection::no_room);
                 return Answer<Reply>::fail(
                     *pending, v1::REMOTE_EX_OUT_OF_RESOURCES,
                     std::to_string(bounds::kOpenRequests) + " requests are not answered yet");
@@ -151,7 +151,7 @@ void Answer<Reply>::fail(rpc::PendingReply& pending, v1::RemoteException excepti
   pending.answer(std::make_shared<const Reply>(std::move(reply)));
 }
 
-// Every procedure of topics.hpp.
+// Every procedure of topics/topics.hpp.
 template struct Calls<v1::PlanRequest, v1::PlanReply>;
 template struct Calls<v1::FunctionRequest, v1::FunctionReply>;
 template struct Calls<v1::PathRequest, v1::PathReply>;

@@ -20,7 +20,7 @@
 
 #include "services/node.hpp"
 #include "services/rpc/call_status.hpp"
-#include "services/topics.hpp"
+#include "services/topics/topics.hpp"
 
 namespace roci::services {
 
@@ -29,6 +29,7 @@ class PendingCalls;
 class PendingReply;
 }  // namespace rpc
 
+/// Says how a call ended, and holds its reply.
 template <class Reply>
 struct CallResult {
   rpc::CallStatus status = rpc::CallStatus::timeout;
@@ -38,8 +39,8 @@ struct CallResult {
 
 namespace detail {
 
-/// The members are defined and instantiated in rpc.cpp, so that users of this header compile no
-/// serialization.
+/// Holds the typed half of calls. The members are defined and instantiated in rpc.cpp, so that users of this
+/// header compile no serialization.
 template <class Request, class Reply>
 struct Calls {
   using OnResult = std::function<void(const CallResult<Reply>&)>;
@@ -50,6 +51,7 @@ struct Calls {
   static void serve(Node&, const topics::Procedure<Request, Reply>&, Handler&&);
 };
 
+/// Holds the typed half of answers; its members are defined in rpc.cpp, too.
 template <class Reply>
 struct Answer {
   static void reply(rpc::PendingReply&, Reply&&);
@@ -70,8 +72,8 @@ class Client {
   Client(Node& node, const topics::Procedure<Request, Reply>& procedure)
       : node_(&node), procedure_(procedure), table_(detail::Calls<Request, Reply>::client(node, procedure)) {}
 
-  /// `on_result` runs on the node's loop, never inside call(). `owner` is the service that should answer,
-  /// or empty for anybody. The request's header members are filled in here.
+  /// Begins a call. `on_result` runs on the node's loop, never inside call(). `owner` is the service that
+  /// should answer, or empty for anybody. The request's header members are filled in here.
   rpc::CallId call(Request request, std::string owner, temporal::Duration deadline,
                    std::function<void(const CallResult<Reply>&)> on_result) const {
     return detail::Calls<Request, Reply>::call(*node_, procedure_, *table_, std::move(request),
@@ -87,6 +89,7 @@ class Client {
   std::shared_ptr<rpc::PendingCalls> table_;
 };
 
+/// Makes a client of a procedure.
 template <class Request, class Reply>
 Client<Request, Reply> make_client(Node& node, const topics::Procedure<Request, Reply>& procedure) {
   return {node, procedure};
@@ -102,17 +105,17 @@ class Responder {
   void fail(v1::RemoteException exception, std::string message) const {
     detail::Answer<Reply>::fail(*pending_, exception, std::move(message));
   }
-  /// `handler` runs once, when the caller cancels before there is an answer; within this call if it already
-  /// has. Who sets none answers in its own time.
+  /// Sets the handler that runs once, when the caller cancels before there is an answer, or within this call
+  /// if it already has. A server that sets none answers in its own time.
   void on_cancel(std::function<void()> handler) const { detail::on_cancel(*pending_, std::move(handler)); }
 
  private:
   std::shared_ptr<rpc::PendingReply> pending_;
 };
 
-/// A duplicate request (same id) gets the first answer again and is not handled twice. A request that names
-/// another owner is left to that one. With kOpenRequests unanswered (bounds/limits.hpp) the next is answered
-/// REMOTE_EX_OUT_OF_RESOURCES.
+/// Serves a procedure. A duplicate request (same id) gets the first answer again and is not handled twice. A
+/// request that names another owner is left to that one. With kOpenRequests unanswered (bounds/limits.hpp)
+/// the next is answered REMOTE_EX_OUT_OF_RESOURCES.
 template <class Request, class Reply>
 void serve(Node& node, const topics::Procedure<Request, Reply>& procedure,
            std::type_identity_t<std::function<void(const Request&, Responder<Reply>)>> handler) {

@@ -1,4 +1,4 @@
-// Long computations of a service, beside its event loop.
+// The worker does long computations of a service beside its event loop.
 #pragma once
 #include <utility>
 
@@ -8,13 +8,13 @@
 namespace roci::services {
 
 /// Runs long computations beside the event loop, on one thread, in the order in which they were given; the
-/// simulated clock waits for them. Make it the last member of a service: its thread ends before what the jobs
-/// use.
+/// simulated clock waits for them. Make it the last member of a service, so that its thread ends before what
+/// the jobs use.
 class Worker {
  public:
   explicit Worker(Node& node) : node_(node) {}
 
-  /// `work(stop_token)` runs on the thread, then `deliver(its result)` on the loop.
+  /// Runs `work(stop_token)` on the thread, then `deliver` with its result on the loop.
   template <class Work, class Deliver>
   void compute(Work work, Deliver deliver) {
     const auto id = node_.begin_work();

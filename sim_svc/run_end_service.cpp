@@ -23,17 +23,17 @@ RunEnd::RunEnd(services::Node& node, std::function<bool()> nothing_to_come, std:
   });
 }
 
-RunEnd::Standing RunEnd::standing_of(const v1::MissionStatus& status) {
+RunEnd::MissionState RunEnd::mission_state_of(const v1::MissionStatus& status) {
   if (!status.outcome().empty())
-    return status.phase() == v1::PHASE_SAFE ? Standing::made_safe : Standing::over;
+    return status.phase() == v1::PHASE_SAFE ? MissionState::made_safe : MissionState::over;
   const bool idle = status.phase() == v1::PHASE_IDLE && status.goals_open() == 0 &&
                     status.goals_achieved() + status.goals_dropped() + status.goals_failed() == 0;
-  return idle ? Standing::without_goals : Standing::open;
+  return idle ? MissionState::without_goals : MissionState::open;
 }
 
 void RunEnd::note(const v1::MissionStatus& status) {
   if (executives_.size() >= kExecutives && !executives_.contains(status.executive())) return;
-  executives_[status.executive()] = standing_of(status);
+  executives_[status.executive()] = mission_state_of(status);
   check();
 }
 
@@ -52,15 +52,15 @@ void RunEnd::check() {
 
 // Some executive had goals, and none has open ones.
 bool RunEnd::over() const {
-  const auto stands = [this](Standing standing) {
-    return std::ranges::any_of(executives_, [&](const auto& one) { return one.second == standing; });
+  const auto any_is = [this](MissionState state) {
+    return std::ranges::any_of(executives_, [&](const auto& one) { return one.second == state; });
   };
-  return !stands(Standing::open) && (stands(Standing::over) || stands(Standing::made_safe));
+  return !any_is(MissionState::open) && (any_is(MissionState::over) || any_is(MissionState::made_safe));
 }
 
 bool RunEnd::may_be_heard_again() {
   const bool made_safe =
-      std::ranges::any_of(executives_, [](const auto& one) { return one.second == Standing::made_safe; });
+      std::ranges::any_of(executives_, [](const auto& one) { return one.second == MissionState::made_safe; });
   if (!made_safe || node_.options().clock != services::clock::ClockMode::live) return false;
   const auto now = services::clock::wall_now();
   if (!awaited_until_) awaited_until_ = now + services::clock::wall_seconds(kReturnS);

@@ -1,4 +1,4 @@
-/// When a run of the simulated world ends: the executives have ended their missions, and nothing is to come.
+// A run of the simulated world ends when the executives have ended their missions, and nothing is to come.
 #pragma once
 
 #include <cstdint>
@@ -13,29 +13,30 @@
 
 namespace roci::sim {
 
+/// Decides when a run ends.
 class RunEnd {
  public:
-  /// `nothing_to_come` tells whether the world and its scenario are through. `end` is called once some executive had
-  /// goals, none has open ones, and that stayed so for a second of mission time: a goal may arrive in the meantime.
-  /// Where an executive has made a live robot safe, it also stays so for some seconds of wall time: the robot may have
-  /// hung, and is heard again then. The node outlives this.
+  /// Calls `end` once some executive had goals, none has open ones, `nothing_to_come` says that world and scenario are
+  /// through, and that stayed so for a second of mission time, in which a goal may arrive. Where an executive has made
+  /// a live robot safe, it must also stay so for some seconds of wall time: the robot may have hung, and is heard
+  /// again then. The node must outlive this object.
   RunEnd(services::Node& node, std::function<bool()> nothing_to_come, std::function<void()> end);
 
   void note(const v1::MissionStatus&);
-  /// To be called whenever something that was to come has come.
+  /// Checks again; it is to be called whenever something that was to come has come.
   void check();
 
  private:
-  enum class Standing : std::uint8_t { without_goals, open, over, made_safe };
+  enum class MissionState : std::uint8_t { without_goals, open, over, made_safe };
 
-  static Standing standing_of(const v1::MissionStatus&);
+  static MissionState mission_state_of(const v1::MissionStatus&);
   bool over() const;
   bool may_be_heard_again();
 
   services::Node& node_;
   std::function<bool()> nothing_to_come_;
   std::function<void()> end_;
-  std::map<std::string, Standing> executives_;
+  std::map<std::string, MissionState> executives_;
   std::optional<services::Node::TimerId> farewell_;
   std::optional<services::clock::WallTime> awaited_until_;  ///< a robot that was made safe
 };

@@ -131,7 +131,7 @@ class SimService final : public services::Service, private owner::Driver {
     tell(world_.begin(node_.now(), wire::order_of(request)));
   }
 
-  void break_off(const owner::CommandKey& key, const owner::Word& why) override {
+  void break_off(const owner::CommandKey& key, const owner::CommandStatus& why) override {
     const TaskStage stage = why.stage == owner::Stage::failed ? TaskStage::failed : TaskStage::cancelled;
     tell(world_.halt(node_.now(), wire::task_key(key), stage, {why.code, why.reason}));
   }
@@ -160,7 +160,7 @@ class SimService final : public services::Service, private owner::Driver {
     }
     record_effects();
     record_begun();
-    if (kept_) kept_->keep(world_.memory());
+    if (kept_) kept_->keep(world_.memory(), services::clock::wall_now());
     run_end_.check();
     if (wake_) node_.cancel(*wake_);
     wake_.reset();
@@ -199,7 +199,7 @@ class SimService final : public services::Service, private owner::Driver {
     if (task.stage == TaskStage::repairing) {
       commands_.repair(wire::command_key(task.key), task.reason);
     } else {
-      commands_.say(wire::command_key(task.key), wire::word_of(task));
+      commands_.say(wire::command_key(task.key), wire::status_of(task));
     }
   }
 
@@ -295,7 +295,7 @@ class SimService final : public services::Service, private owner::Driver {
     for (const world::Effect& one : world_.take_effects()) {
       effects_ << nlohmann::json{{"time_us", one.at.count()},    {"robot", one.robot},
                                  {"component", one.component},   {"kind", one.effect.kind},
-                                 {"object", one.effect.object},    {"commander", one.cause.commander},
+                                 {"object", one.effect.object},  {"commander", one.cause.commander},
                                  {"epoch", one.cause.epoch},     {"activity", one.cause.activity},
                                  {"attempt", one.cause.attempt}, {"incarnation", node_.options().incarnation}}
                       .dump()

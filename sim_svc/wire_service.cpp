@@ -54,11 +54,11 @@ world::Order order_of(const owner::Request& request) {
           {task_key(request.key), request.command, request.arguments, request.latest_end}};
 }
 
-owner::Word word_of(const world::TaskReport& report) {
-  owner::Word word{stage_of(report.stage), report.code, report.reason, {}};
+owner::CommandStatus status_of(const world::TaskReport& report) {
+  owner::CommandStatus status{stage_of(report.stage), report.code, report.reason, {}};
   if (report.results)
-    word.results = {report.results->duration, report.results->energy_j, report.results->values};
-  return word;
+    status.results = {report.results->duration, report.results->energy_j, report.results->values};
+  return status;
 }
 
 world::Way way_of(const v1::PathReply& reply) {

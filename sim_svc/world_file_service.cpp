@@ -6,7 +6,9 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <system_error>
+#include <utility>
 
+#include "core/durable/durable_file.hpp"
 #include "services/log/log.hpp"
 #include "services/owner/value_json.hpp"
 
@@ -146,21 +148,19 @@ std::optional<WorldMemory> WorldFile::read() const {
   return memory;
 }
 
-void WorldFile::keep(const WorldMemory& memory) {
+void WorldFile::keep(const WorldMemory& memory, services::clock::WallTime now) {
   std::string text = to_text(memory);
   if (text == written_) return;
-  const std::filesystem::path next = std::filesystem::path(file_).concat(".new");
-  std::error_code error;
-  if (std::ofstream out(next, std::ios::trunc); out << text && out.flush()) {
-    std::filesystem::rename(next, file_, error);
-    if (!error) {
-      written_ = std::move(text);
-      told_ = false;
-      return;
-    }
+  const bool sync = !synced_ || now - *synced_ >= kSyncEvery;
+  try {
+    durable::replace_file(file_, text, sync ? durable::Durability::power : durable::Durability::process);
+    if (sync) synced_ = now;
+    written_ = std::move(text);
+    told_ = false;
+  } catch (const std::system_error& error) {
+    if (!std::exchange(told_, true))
+      services::log::warning(std::string(error.what()) + "; it is tried again");
   }
-  if (!std::exchange(told_, true))
-    services::log::warning("cannot write " + next.string() + "; it is tried again");
 }
 
 }  // namespace roci::sim

@@ -25,16 +25,23 @@ ROOT = Path(__file__).resolve().parents[2]
 APART = ["unshare", "--mount", "--net", "--pid", "--fork", "--kill-child", "--mount-proc"]
 
 
+def seeds_of(text: str) -> range:
+    first, _, last = text.partition("-")
+    return range(int(first), int(last or first) + 1)
+
+
 def parse() -> argparse.Namespace:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--slice", help="seeds, A-B; each is one mission")
-    parser.add_argument("--jobs", type=int, default=2, help="flights at a time")
-    parser.add_argument("--out", type=Path, default=Path("campaign.jsonl"), help="one line for each seed is appended here")
+    parser.add_argument("--slice", type=seeds_of, metavar="A-B", help="seeds, or one; each is one mission")
+    parser.add_argument("--jobs", type=int, default=2, help="flights at a time (%(default)s)")
+    parser.add_argument("--out", type=Path, default=Path("campaign.jsonl"), help="one line for each seed is appended here (%(default)s)")
     parser.add_argument("--anew", action="store_true", help="forget what stands in --out first")
-    parser.add_argument("--speed", type=float, default=40, help="mission seconds per second")
-    parser.add_argument("--mission", type=Path, default=ROOT / "missions/planetary")
-    parser.add_argument("--bin", type=Path, default=ROOT / "build/release/bin")
-    parser.add_argument("--keep", type=Path, help="folders of flights with violations go here (default: beside --out)")
+    parser.add_argument("--speed", type=float, default=40, help="mission seconds per second (%(default)g)")
+    parser.add_argument("--mission", type=Path, default=ROOT / "missions/planetary",
+                        help="copied for each flight, with longer waits (default: missions/planetary)")
+    parser.add_argument("--bin", type=Path, default=ROOT / "build/release/bin",
+                        help="the programs; beside it, ../tests has intruder and contract-hostile (default: build/release/bin)")
+    parser.add_argument("--keep", type=Path, help="folders of flights with a violation, or not over in time, go here (default: violations/ beside --out)")
     parser.add_argument("--keep-all", action="store_true", help="folders of all flights go there")
     parser.add_argument("--draw", action="store_true", help="print what the slice would fly, and end")
     parser.add_argument("--report", type=Path, nargs="+", metavar="FILE", help="print the table of these and end")
@@ -104,12 +111,15 @@ def main() -> int:
     if not options.slice:
         print("run.py: name a --slice A-B, or a --report FILE", file=sys.stderr)
         return 2
-    first, _, last = options.slice.partition("-")
-    seeds = range(int(first), int(last or first) + 1)
     if options.draw:
-        for seed in seeds:
+        for seed in options.slice:
             print(json.dumps(draw(seed).as_json()))
         return 0
+    missing = [name for name in ("bin/roci-launch", "tests/intruder", "tests/contract-hostile") if not (options.bin.parent / name).exists()]
+    if missing:
+        print(f"run.py: beside {options.bin} there is no {', '.join(missing)}; build the targets programs, intruder and contract-hostile",
+              file=sys.stderr)
+        return 2
     if not can_fly_apart():
         print(f"run.py: SKIPPED: this user cannot make what keeps a flight apart ({' '.join(APART)})", file=sys.stderr)
         return 77
@@ -130,7 +140,7 @@ def main() -> int:
         return record
 
     with ThreadPoolExecutor(options.jobs) as pool:
-        for record in pool.map(one, [seed for seed in seeds if seed not in flown(options.out)]):
+        for record in pool.map(one, [seed for seed in options.slice if seed not in flown(options.out)]):
             tell(record, options)
             faulty += bool(record["violations"]) or "harness_failed" in record
     return 1 if faulty else 0

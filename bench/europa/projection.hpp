@@ -15,7 +15,7 @@
 namespace roci::bench::europa {
 
 /// Is how things stand: the plan that is executed, how far it has come, and the true values of timelines.
-struct Standing {
+struct FlightState {
   const planner::utility_htn::model::Network& network;
   const temporal::FlexiblePlan& plan;
   const temporal::Progress& progress;
@@ -32,6 +32,6 @@ struct Seen {
 
 /// Puts what is planned and what runs onto timelines that are anchored now,
 /// and asks when each of these tasks could start.
-Seen seen(const Standing& standing, const std::vector<std::string>& tasks);
+Seen seen(const FlightState& flight, const std::vector<std::string>& tasks);
 
 }  // namespace roci::bench::europa

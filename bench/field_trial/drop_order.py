@@ -35,7 +35,7 @@ def broken_drop_order(flight: Flight, pattern: Pattern) -> list[str]:
         if code == "goal.accepted":
             open_goals = [*(one for one in open_goals if one is not goal), goal]
         if code in ("goal.dropped", "goal.failed") and "in a row" not in words:
-            proved = "\ndetails: " in goal.reason
+            proved = "\ndetails: " in goal.reason and not goal.spent_budget()
             candidates = [one for one in open_goals if proved and re.search(pattern(one), goal.reason)] or open_goals
             right = to_go(candidates)
             if right is not None and right is not goal:

@@ -22,10 +22,10 @@ MOST_SAMPLES = 3
 # As in missions/europa/mission.yaml: range_k of each zone; telemetry has no more digits than these.
 ZONES_K = {"arm": (110, 330), "vault": (240, 350), "antenna": (120, 400)}
 TOLERANCE_K = 0.01
-# Energy of communication by the network's own power: downlink_limit_j. It binds plans; how long sending takes varies by the rate's noise,
-# which no plan knows, and a link that is slower than foreseen (uncertainty "data rate") makes it longer still.
-DOWNLINK_W, SESSION_LIMIT_J = 120, 1_000_000
-SESSION_TOLERANCE = 1.05
+# Energy of communication by the network's own power: downlink_limit_j and sol_limit_j. They bind plans; how long sending takes varies by the
+# rate's noise, which no plan knows, and a link that is slower than foreseen (uncertainty "data rate") makes it longer still.
+DOWNLINK_W, SESSION_LIMIT_J, SOL_LIMIT_J, SOL_S = 120, 1_000_000, 1_500_000, 86_400
+LIMIT_TOLERANCE = 1.05
 EMPTY_J = 200_000  # as in the goal of mission.yaml
 
 
@@ -69,7 +69,7 @@ class Flight:
     refused: list[str] = field(default_factory=list)  # plan versions, by the checker or the executive
     battery_s: float | None = None  # when it was empty
     durations: dict[str, float] = field(default_factory=dict)  # of the newest success of each task, by its name in the network
-    long_sessions: list[str] = field(default_factory=list)  # of a slower link
+    long_sessions: list[str] = field(default_factory=list)  # of a slower link, and sols that such sessions overdraw
     faults: list[str] = field(default_factory=list)  # rules that were broken
     losses: list[Loss] = field(default_factory=list)
 
@@ -202,14 +202,26 @@ def broken_map(flight: Flight, observed: dict[str, list[tuple[float, str]]]) -> 
     return out
 
 
-def long_sessions(observed: dict[str, list[tuple[float, str]]]) -> list[str]:
-    """downlink_limit_j, by the power that the network foresees: a session is what is sent without another state between."""
+def sessions(observed: dict[str, list[tuple[float, str]]]) -> list[tuple[float, float]]:
+    """Beginning and energy of each, by the power that the network foresees: a session is what is sent without another state between."""
     out, since = [], None
     for at, value in observed["lander.radio"]:
-        if since is not None and (at - since) * DOWNLINK_W > SESSION_TOLERANCE * SESSION_LIMIT_J:
-            out.append(f"a session of {(at - since) * DOWNLINK_W / 1e6:.2f} MJ begins at {since:.0f} s")
-        since = at if value == "sending" else None
+        if value == "sending":
+            since = at if since is None else since
+        elif since is not None:
+            out.append((since, (at - since) * DOWNLINK_W))
+            since = None
     return out
+
+
+def long_sessions(observed: dict[str, list[tuple[float, str]]]) -> list[str]:
+    """downlink_limit_j of each session, and sol_limit_j of those that begin within one sol."""
+    out, sols = [], defaultdict(float)
+    for since, joules in sessions(observed):
+        sols[int(since // SOL_S)] += joules
+        if joules > LIMIT_TOLERANCE * SESSION_LIMIT_J:
+            out.append(f"a session of {joules / 1e6:.2f} MJ begins at {since:.0f} s")
+    return out + [f"the sessions of sol {sol} take {joules / 1e6:.2f} MJ" for sol, joules in sols.items() if joules > LIMIT_TOLERANCE * SOL_LIMIT_J]
 
 
 def broken_deeds(flight: Flight) -> list[str]:

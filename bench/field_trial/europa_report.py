@@ -53,12 +53,12 @@ def flights_section(records: list[Record]) -> str:
     refused = [one for one in flights if one.refused]
     out = f"## Flights\n\n{len(records)} flights: " + ", ".join(f"{count} {name}" for name, count in results.most_common())
     out += f". In {sum(one.battery_s is not None for one in flights)} of them the battery was empty before the 22 days were over.\n\n"
-    out += (f"**Rules** (a defined end; every zone in its range; the subway map; no session above `downlink_limit_j`; nothing done or sent twice): "
+    out += (f"**Rules** (a defined end; every zone in its range; the subway map; no session above `downlink_limit_j` and no sol above `sol_limit_j`; nothing done or sent twice): "
             f"{'all hold' if not faults else str(len(faults)) + ' broken'}.\n")
     out += "".join(f"- seed {seed}: {fault}\n" for seed, fault in faults)
     slow = [one for one in flights if one.long_sessions]
     if slow:
-        out += f"\nIn {len(slow)} flights a link slower than foreseen made a session longer than its limit permits a plan ({examples([one.seed for one in slow])}).\n"
+        out += f"\nIn {len(slow)} flights a link slower than foreseen made sessions longer than the limits of a downlink or a sol permit a plan ({examples([one.seed for one in slow])}).\n"
     total = sum(len(one.refused) for one in flights)
     out += f"\n**Plan versions refused** by the independent checker or the executive, and so never flown: {total}"
     out += f" in {len(refused)} flights ({examples([one.seed for one in refused])}).\n" if refused else ".\n"

@@ -26,6 +26,7 @@ class Repair:
     used_s: float | None  # from the No-Go to the next drive on new paths; nothing: there was none
     allowed_s: float  # that the decision had left
     ended_well: bool  # the step that it was for was carried out
+    paths_s: float | None = None  # from the No-Go to both new paths; nothing: there were none in its time, or nothing says when
 
 
 @dataclass
@@ -81,7 +82,7 @@ def read(flight: Flight, folder: Path, journal: str = "journal.sqlite") -> None:
     flight.felt = sum("primary says No-Go" in one["text"] for one in lines(folder / "events.jsonl"))
     flight.bogged = any("primary" in text and "bogged-down" in text for _, text in trace if text.startswith("ack"))
     flight.replans = [cause_of(text) for _, text in events if text.startswith("plan.broken")]
-    flight.repairs = repairs_of(rows, lines(folder / "effects.jsonl"))
+    flight.repairs = repairs_of(rows, lines(folder / "effects.jsonl"), lines(folder / "events.jsonl"))
     circles = circles_of(folder)
     flight.marks = len(circles)
     flight.entries = entries_into(circles, trace)
@@ -97,9 +98,11 @@ def read(flight: Flight, folder: Path, journal: str = "journal.sqlite") -> None:
     flight.faults += [f"command {' '.join(map(str, key))} has its effect {count} times" for key, count in doubled.items() if count > 1]
 
 
-def repairs_of(rows: list[tuple[int, str, str]], effects: list[dict]) -> list[Repair]:
+def repairs_of(rows: list[tuple[int, str, str]], effects: list[dict], events: list[dict]) -> list[Repair]:
+    # The repair tells the primary's map to the scout as soon as both paths are worked out (TraverseWithSS of scout_locomotion.yaml).
+    told = [one["time_us"] / 1e6 for one in events if one["sender"] == "primary.path" and one.get("code") == "map.told"]
     drives = [(one["time_us"] / 1e6, one["object"]) for one in effects if one["robot"] == "scout" and one["kind"] == "motion"]
-    metres = leg_metres()
+    metres, (speed, room) = leg_metres(), longest_drive()
     well = {found[1] for _, kind, text in rows if kind == "trace" and (found := re.search(r"ack (\S+?-\S+?(?:\([^)]*\))?) \d+ stage=2 ", text))}
     begun, out = {}, []
     for us, kind, text in rows:
@@ -114,12 +117,21 @@ def repairs_of(rows: list[tuple[int, str, str]], effects: list[dict]) -> list[Re
         activity, _, _, error = found.groups()
         at = us / 1e6
         leg = re.search(r"traversing_with_ss\((\w+), (\w+)\)", activity)
-        limit = metres.get((leg[1], leg[2]), 0) / 0.0125 + 300 if leg else 0  # as in domain.yaml
+        limit = metres.get((leg[1], leg[2]), 0) / speed + room if leg else 0
         after = [since for since, to in drives if since >= at and to == leg[2]] if leg else []  # and not back first
         end = begun.get(activity, at) + limit
         error = error if "-" in error else "path-invalid"  # which is told by its reason alone
-        out.append(Repair(error, at, min(after) - at if after and min(after) <= end else None, end - at if leg else 0, activity in well))
+        both = [since for since in told if at <= since <= (min(after) if after else end)] if leg else []
+        out.append(Repair(error, at, min(after) - at if after and min(after) <= end else None, end - at if leg else 0, activity in well,
+                          min(both) - at if both else None))
     return out
+
+
+def longest_drive() -> tuple[float, float]:
+    """How long the scout's drive may take at most, as the domain says: m/s for the metres of its leg, and the seconds beside."""
+    text = (Path(__file__).resolve().parents[2] / "missions/faster/domain.yaml").read_text()
+    found = re.search(r'duration_s: \["[^"]*", "metres\(from, to\) / ([\d.]+) \+ ([\d.]+)"\]', text[text.index("traversing_with_ss:"):])
+    return float(found[1]), float(found[2])
 
 
 def leg_metres() -> dict[tuple[str, str], float]:
@@ -131,11 +143,14 @@ def leg_metres() -> dict[tuple[str, str], float]:
 
 
 def circles_of(folder: Path) -> list[tuple[float, float, float, float]]:
-    """x, y, radius, and since when the primary's map has it."""
+    """x, y, radius, and since when the primary's map has it. Where nothing says when it came there, as of processes, it counts from when it was found:
+    never later than the map had it."""
     file = folder / "primary.path.hazards"
-    if not file.exists() or not (folder / "events.jsonl").exists():  # only rehearsals write down what maps say
+    if not file.exists():
         return []
-    waiting = [one for one in json.loads(file.read_text()) if one["kind"] == "soil"]
+    waiting = [one for one in json.loads(file.read_text()) if one.get("kind") == "soil"]
+    if not (folder / "events.jsonl").exists():  # which rehearsals alone leave
+        return sorted(((one["x_m"], one["y_m"], one["radius_m"], one["found_s"]) for one in waiting), key=lambda one: one[3])
     found_at, versions = {}, []  # since when the map had how many hazards
     for one in lines(folder / "events.jsonl"):
         found = re.search(r"the map has version \d+ with (\d+) hazards", one["text"])

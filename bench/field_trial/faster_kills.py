@@ -34,6 +34,7 @@ class KilledFlight:
     goals_lost: list[str] = field(default_factory=list)
     doubled: list[str] = field(default_factory=list)
     faults: list[str] = field(default_factory=list)
+    entries: int | None = None  # of the primary into circles that its map had; nothing: not read, by an earlier version of this file
 
 
 def by_name(parent: int) -> dict[str, int]:
@@ -76,7 +77,7 @@ def fly_killing(bin_folder: Path, mission: Path, seed: int, folder: Path, calm_s
     except (OSError, ValueError, sqlite3.Error) as error:
         out.faults.append(f"no record: {error}; {told['error']}")
         return out
-    out.arrived = flight.arrived
+    out.arrived, out.entries = flight.arrived, flight.entries
     out.goals_lost = [goal for goal in GOALS if goal not in known]
     out.doubled = [fault for fault in flight.faults if fault.startswith("command ")]
     out.faults = flight.faults + [f"goal {goal} is lost" for goal in out.goals_lost]

@@ -25,6 +25,12 @@ def quantiles(values: list[float]) -> str:
     return f"{ordered[len(ordered) // 2]:.2f}, at most {ordered[-1]:.2f}" if ordered else "–"
 
 
+def measured_entries(killed: list) -> str:
+    known = [one.entries for one in killed if one.entries is not None]
+    unknown = f"not measured in {len(killed) - len(known)} of them" if len(known) < len(killed) else ""
+    return ", ".join(text for text in (str(sum(known)) if known else "", unknown) if text)
+
+
 def range_of(flights: list) -> str:
     return f"seeds {flights[0].seed} to {flights[-1].seed}"
 
@@ -81,6 +87,7 @@ def write(records: list, target: Path, beside: list = (), earlier: list = ()) ->
     flights = [one.flight for one in records]
     repairs = [repair for one in flights for repair in one.repairs]
     drives = [one for one in repairs if one.cause == "no-go" and one.used_s is not None]
+    paths = [one for one in repairs if one.cause == "no-go" and one.paths_s is not None]
     first, last = flights[0].seed, flights[-1].seed
     text = f"""# Field trial: two rovers over hidden traps
 
@@ -97,8 +104,10 @@ By the error that they are for, {len(repairs)} in all; of {sum(one.ended_well fo
 
 {counted([one.cause for one in repairs if one.ended_well], "error, repaired without a new plan")}
 {counted([one.cause for one in repairs if not one.ended_well], "error whose step failed all the same")}
-**From the No-Go to both new paths**: {len(drives)} times the scout drove on, on new paths, within its decision. Time used in seconds of mission time, median
-{quantiles([one.used_s for one in drives])}; share of the time that the decision had left, median {quantiles([one.used_s / one.allowed_s for one in drives])}.
+**From the No-Go to both new paths**: {len(paths)} times both paths were worked out within the scout's decision. Time used in seconds of mission time, median
+{quantiles([one.paths_s for one in paths])}; share of the time that the decision had left, median {quantiles([one.paths_s / one.allowed_s for one in paths])}.
+**To the drive on**: {len(drives)} times the scout drove on within its decision, having come back first. Time used, median
+{quantiles([one.used_s for one in drives])}; share, median {quantiles([one.used_s / one.allowed_s for one in drives])}.
 
 ## New plans by cause
 
@@ -119,7 +128,8 @@ By the error that they are for, {len(repairs)} in all; of {sum(one.ended_well fo
 
 {len(killed)} of the flights{state} again over DDS, every service a process, one to three of them killed by `kill -9` ({sum(one.killed for one in killed)} kills):
 {sum(len(one.goals_lost) for one in killed)} goals lost, {sum(len(one.doubled) for one in killed)} commands doubled,
-{share(sum(one.result in ("achieved", "partial") for one in killed), len(killed))} with a defined end, {share(sum(one.arrived for one in killed), len(killed))} arrived.
+{share(sum(one.result in ("achieved", "partial") for one in killed), len(killed))} with a defined end, {share(sum(one.arrived for one in killed), len(killed))} arrived;
+entries into marked soil: {measured_entries(killed)}.
 
 {table(["seed", "transport", "killed", "end", "arrived"], [[str(one.seed), one.dds, one.kills, one.result, "yes" if one.arrived else "no"] for one in killed])}
 """

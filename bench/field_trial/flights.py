@@ -59,6 +59,10 @@ class GoalEnd:
         """x and y, of one that has them."""
         return self.arguments.get("x", ""), self.arguments.get("y", "")
 
+    def spent_budget(self) -> bool:
+        """Whether it left since the planner's budget was spent, which proves nothing."""
+        return self.reason.partition("\ndetails: ")[2].startswith(("timeout", "out_of_memory"))
+
 
 @dataclass
 class Call:

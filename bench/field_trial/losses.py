@@ -53,7 +53,7 @@ class Loss:
 
 
 def classify(flight: Flight, goal: GoalEnd, looks: Iterable[SecondLook], back: Hindsight | None) -> str:
-    if goal.reason.startswith(("timeout", "out_of_memory")):
+    if goal.spent_budget():
         return "missed" if any(look.solvable and look.call.reason in goal.reason for look in looks) else "budget"
     if back and goal.id in back.no_way:
         return "no way"

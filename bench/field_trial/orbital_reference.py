@@ -66,6 +66,14 @@ class Scheduler:
         asked = {(role, s) for d, s in seat if d in replaced for m, role in serves if m == d}
         asked |= {(role, s) for c, role, s in self._all("needs") if c in modes}
         self.fits = {(m, s) for role, s in asked for m, other in serves if other == role}
+        # When a module may be placed where goals need it: in the windows of all of them.
+        self.placing: dict[tuple[str, str], list[tuple[str, ...]]] = {(m, s): [("allowed", m, s)] for m, s in wanted}
+        for d, s in seat:
+            for m in {m for m, role in serves if (d, role) in serves} if d in replaced else ():
+                self.placing.setdefault((m, s), []).append(("replacing", d))
+        for c, role, s in self._all("needs"):
+            for m in {m for m, other in serves if other == role} if c in modes else ():
+                self.placing.setdefault((m, s), []).append(("configuring", c))
         aim = wanted | self.fits
         target = {s for _, s in wanted} | {s for _, s in asked}
         self.movers = held | {m for m, _ in aim} | {m for m, s in lay if s in target}
@@ -110,6 +118,14 @@ class Scheduler:
             if start + duration + GAP_S <= closes:
                 return start
         return None
+
+    def _inside_all(self, facts, time: float, duration: float) -> float | None:
+        before = None
+        while time is not None and time != before:
+            before = time
+            for fact in facts:
+                time = self._inside(self.problem.windows(fact), time, duration) if time is not None else None
+        return time
 
     def run(self) -> Schedule:
         lies = {m: s for m, s in self._all("at-slot")}
@@ -179,10 +195,9 @@ class Scheduler:
                 if there is None:
                     continue
                 begin, joules, way = there
-                if (state.held, slot) in self.wanted and (state.held, slot) not in self.fits:
-                    begin = self._inside(self.problem.windows(("allowed", state.held, slot)), begin, PLACE[0])
-                    if begin is None:
-                        continue
+                begin = self._inside_all(self.placing.get((state.held, slot), []), begin, PLACE[0])
+                if begin is None:
+                    continue
                 way = (step(begin, f"place {state.held} {slot}", PLACE[0]), way)
                 placed = tuple(sorted({**where, state.held: slot}.items()))
                 yield (begin + PLACE[0] + GAP_S, joules + PLACE[1], State(placed, slot, True, ""),

@@ -52,6 +52,11 @@ class Folder:
         return out
 
 
+    def flight_again(self, scenario=None):
+        (self.path / "journal.sqlite").unlink()
+        return self.flight(scenario=scenario)
+
+
 class Draw(unittest.TestCase):
     def test_a_seed_is_one_scenario(self):
         self.assertEqual(draw(7).yaml(), draw(7).yaml())
@@ -138,6 +143,15 @@ class Rules(unittest.TestCase):
         slower = folder.flight(scenario=Scenario(1, rates=[(0, 3000)]))
         self.assertEqual((slower.faults, len(slower.long_sessions)), ([], 1), "no plan knew that")
 
+    def test_sols_have_a_limit(self):
+        folder = Folder()
+        for at in (100, 30_000, 60_000, 90_000):  # the last one in the next sol
+            folder.observe(at, "lander.radio", "sending")
+            folder.observe(at + 4500, "lander.radio", "idle")
+        self.assert_broken(folder, "the sessions of sol 0 take 1.62 MJ")
+        self.assertEqual(len(folder.flight_again().faults), 1)
+        self.assertEqual(folder.flight_again(Scenario(1, rates=[(0, 3000)])).faults, [], "no plan knew that")
+
     def test_nothing_is_done_or_sent_twice(self):
         folder = Folder()
         folder.deed(5, "collect", "1 0", "collect_sample_1_0#3.1")
@@ -209,7 +223,7 @@ class Constants(unittest.TestCase):
     """What stands in the mission's files stands here as well."""
 
     def test_data_are_worth_what_the_network_says(self):
-        text = (MISSION / "lander.yaml").read_text()
+        text = (MISSION / "lander.yaml").read_text() + (MISSION / "targets.yaml").read_text()
         found = re.findall(r"(\w+?)(?:_\{site\}(?:_\{target\})?\"?)?: \{tier: (\w+), bytes: \w+, utility: \{\"?\S+?\"?: ([\d.]+)\}", text)
         self.assertEqual({kind for kind, _, _ in found}, set(flights.WORTH))
         for kind, tier, value in found:
@@ -225,6 +239,11 @@ class Constants(unittest.TestCase):
             capacity = float(re.search(rf"{zone}: \{{capacity_j_k: (\d+)", text)[1])
             self.assertGreater(float(keep) + SHOCKS_J[zone][0] / capacity, float(low), "no shock breaks the range by itself")
         self.assertIn(f"rate_byte_s: {RATE_BYTE_S} ", text)
+
+    def test_communication_has_the_limits_of_the_network(self):
+        text = (MISSION / "rsm1.yaml").read_text() + (MISSION / "model.yaml").read_text()
+        for name, value in (("sol_limit_j", flights.SOL_LIMIT_J), ("downlink_limit_j", flights.SESSION_LIMIT_J), ("downlink_w", flights.DOWNLINK_W)):
+            self.assertIn(f"  {name}: {{value: {value},", text)
 
     def test_parameters_exist(self):
         text = (MISSION / "model.yaml").read_text()

@@ -9,6 +9,7 @@ from pathlib import Path
 import faster_report
 from faster import Record, loaded
 from faster_flights import Flight, cause_of, circles_of, entries_into, repairs_of, without_repairs, without_soil_sensing
+from faster_kills import KilledFlight
 from report import HAND
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -34,9 +35,9 @@ class ReadsAFlight(unittest.TestCase):
     def test_circles_since_the_primary_took_them(self):
         with tempfile.TemporaryDirectory() as folder:
             folder = Path(folder)
-            hazard = {"kind": "soil", "radius_m": 0.65, "x_m": 1.0, "y_m": 2.0}
-            (folder / "primary.path.hazards").write_text(json.dumps([{**hazard, "id": "scout-soil-2"}, {**hazard, "id": "scout-soil-1", "x_m": 7.0}]))
-            self.assertEqual(circles_of(folder), [], "nothing says when they came")
+            hazard = {"kind": "soil", "radius_m": 0.65, "x_m": 1.0, "y_m": 2.0, "found_s": 15.0}
+            (folder / "primary.path.hazards").write_text(json.dumps([{**hazard, "id": "scout-soil-2"}, {**hazard, "id": "scout-soil-1", "x_m": 7.0, "found_s": 5.0}]))
+            self.assertEqual(circles_of(folder), [(7.0, 2.0, 0.65, 5.0), (1.0, 2.0, 0.65, 15.0)], "nothing says when they came: since they were found")
             changed = [{"sender": "primary.path", "text": f"the map has version {n + 1} with {n} hazards", "time_us": n * 1e7} for n in (1, 2)]
             (folder / "events.jsonl").write_text("".join(json.dumps(one) + "\n" for one in changed))
             self.assertEqual(circles_of(folder), [(7.0, 2.0, 0.65, 10.0), (1.0, 2.0, 0.65, 20.0)])
@@ -59,9 +60,13 @@ class ReadsAFlight(unittest.TestCase):
                 (9_000_000, "trace", f"9000000 ack {STEP} 1 stage=0 scout.locomotion repairing drive: no-go, the wheel says No-Go")]
         motion = {"robot": "scout", "kind": "motion"}
         moved = [{**motion, "time_us": at * 1_000_000, "object": to} for at, to in ((6, "w1"), (10, "w0"), (12, "w1"))]
-        (one,) = repairs_of(rows, moved)
+        told = [{"sender": who, "code": "map.told", "time_us": at * 1e6} for who, at in (("primary.path", 8), ("scout.path", 9), ("primary.path", 9.5), ("primary.path", 11))]
+        (one,) = repairs_of(rows, moved, told)
         self.assertEqual((one.cause, one.at_s, one.used_s), ("no-go", 9, 3), "to the drive on, not to the one back")
-        self.assertAlmostEqual(one.allowed_s, 5 + 1.5 / 0.0125 + 300 - 9)
+        self.assertEqual(one.paths_s, 0.5, "to the map of both, which is told when both paths are there")
+        self.assertAlmostEqual(one.allowed_s, 5 + 1.5 / 0.0125 + 240 - 9)  # of TraverseWithSS in domain.yaml
+        (one,) = repairs_of(rows, moved, [])
+        self.assertIsNone(one.paths_s)
 
     def test_another_range_stands_beside_this_one(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -97,6 +102,15 @@ class ReadsAFlight(unittest.TestCase):
             faster_report.write([pair, Record(Flight(4, "", 16.0, arrived=True))], page)
             self.assertIn("found soil that does not bear it in 1 of the 2 flights", page.read_text())
             self.assertIn("without it were seeds 3. Of these arrive 1 with it, 0 without; primaries dug in: 0 with it, 1 without;", page.read_text())
+
+    def test_of_killed_flights_the_page_says_what_was_not_measured(self):
+        with tempfile.TemporaryDirectory() as folder:
+            page = Path(folder) / "page.md"
+            killed = [KilledFlight(seed, "nothing", "mixed", entries=entries) for seed, entries in ((5, 0), (6, 1), (7, None))]
+            faster_report.write([Record(Flight(one.seed, "", 16.0), killed=one) for one in killed], page)
+            self.assertIn("entries into marked soil: 1, not measured in 1 of them.", page.read_text())
+            faster_report.write([Record(Flight(5, "", 16.0), killed=killed[2])], page)
+            self.assertIn("entries into marked soil: not measured in 1 of them.", page.read_text())
 
     def test_only_the_primarys_wheels_feel_nothing(self):
         with tempfile.TemporaryDirectory() as folder:

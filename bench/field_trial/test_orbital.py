@@ -73,7 +73,7 @@ class DropOrder(unittest.TestCase):
     """A proof names a condition that stands for no fact by its formula, as mission.yaml has it."""
 
     def flown(self, proved: str) -> Flight:
-        reason = f"out of reach: no sequence of actions reaches it\ndetails: no sequence of actions reaches: {proved}"
+        reason = f"out of reach: no plan brings it about\ndetails: no sequence of actions reaches: {proved}"
         goals = [
             GoalEnd("watch/radio", "radio", "optional", 5, "dropped", reason, {"module": "radio-1"}),
             GoalEnd("ground/mode", "mode", "optional", 5, "dropped", reason, {"mode": "survey"}),

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""How time and memory of the planner grow with goals, sites, windows, envelopes and modules, as Markdown tables:
+"""How time and memory of the planner grow with goals, sites, windows, envelopes, modules, objects and variables, as Markdown tables:
 
   run.py --planner build/release/bin/roci-plan --validate build/release/bin/roci-validate
 
-The problems are made by rover.py, envelopes.py and orbital.py and run by ../ipc/run.py, three of each size. The slope is
+The problems are made by rover.py, envelopes.py, orbital.py, deliveries.py and workshop.py and run by ../ipc/run.py, three of each size. The slope is
 that of a line through the logarithms of size and median, fitted to the larger half of the sizes. Memory is the engine's own count, without the program."""
 
 import argparse
@@ -17,16 +17,18 @@ import subprocess
 import sys
 import tempfile
 
+import deliveries
 import envelopes
 import orbital
 import rover
+import workshop
 
 HERE = pathlib.Path(__file__).resolve().parent
 SEEDS = 3
 DOUBLING = (2, 4, 8, 16, 32)
 MODULES = (4, 6, 10, 20, 40, 80, 140, 200)
-DOMAINS = {"rover": HERE / "rover.pddl", "envelopes": HERE / "envelopes.pddl",
-           "orbital": HERE.parents[1] / "missions" / "orbital" / "domain.pddl"}
+DOMAINS = {"rover": HERE / "rover.pddl", "envelopes": HERE / "envelopes.pddl", "deliveries": HERE / "deliveries.pddl",
+           "workshop": HERE / "workshop.pddl", "orbital": HERE.parents[1] / "missions" / "orbital" / "domain.pddl"}
 # name: domain, what grows, its sizes, the problem of a size and perhaps the values of its external functions
 FAMILIES = {
     "goals": ("rover", "goals among 64 sites", DOUBLING, lambda n, seed: rover.problem(64, n, 0, seed)),
@@ -40,6 +42,10 @@ FAMILIES = {
                 lambda n, seed: orbital.reconfiguration(n, 4, seed)),
     "moved": ("orbital", "modules of a satellite, all to be elsewhere", MODULES,
               lambda n, seed: orbital.reconfiguration(n, n, seed)),
+    "objects": ("deliveries", "places of deliveries, 0.4 other objects for each", (25, 50, 100, 200, 400),
+                lambda n, seed: deliveries.problem(n, seed)),
+    "variables": ("workshop", "pieces of a workshop, any two of which may be joined", (50, 100, 200, 400, 800),
+                  lambda n, seed: workshop.problem(n, seed)),
 }
 
 

@@ -4,7 +4,8 @@
   run.py --root TREE --planner grounding --command 'roci-plan {domain} {problem} --evaluations 1 --stats {stats}' --out g.jsonl
   grounding.py g.jsonl
 
-Grounded is what reached the search; refused, what the planner does not take."""
+Grounded is what reached the search; refused, what the planner does not take. Facts are those of the task that has the most ground
+actions: another one may have more facts and fewer actions."""
 
 import collections
 import json
@@ -21,8 +22,8 @@ def row(domain, records):
     cpu = [record["cpu_s"] for record in records]
     most = max(stats, key=lambda entry: entry.get("ground_actions", 0))
     return (f"| {domain} | {len(records)} | {grounded} | {refused} | {statistics.median(cpu):.2f} | {max(cpu):.2f} | "
-            f"{max(record['peak_rss_kb'] for record in records) / 1024:.0f} | {most.get('facts', 0)} | "
-            f"{most.get('ground_actions', 0)} |")
+            f"{max(record['peak_rss_kb'] for record in records) / 1024:.0f} | {most.get('ground_actions', 0)} | "
+            f"{most.get('facts', 0)} |")
 
 
 def main():
@@ -31,7 +32,7 @@ def main():
         with open(path) as file:
             for record in map(json.loads, file):
                 by_domain[record["domain"]].append(record)
-    print("| domain | instances | grounded | refused | median CPU s | most CPU s | most MB | facts | ground actions |")
+    print("| domain | instances | grounded | refused | median CPU s | most CPU s | most MB | most ground actions | facts of that task |")
     print("| --- | --- | --- | --- | --- | --- | --- | --- | --- |")
     for domain in sorted(by_domain):
         print(row(domain, by_domain[domain]))

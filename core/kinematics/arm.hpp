@@ -18,6 +18,7 @@ inline constexpr int kMaxJoints = 7;
 /// Holds one value per joint, base first.
 using JointVector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, kMaxJoints, 1>;
 
+/// Says whether a joint turns about its axis or slides along it.
 enum class JointType { revolute, prismatic };
 
 /// Bounds position, speed, acceleration, effort and jerk of one joint.
@@ -30,19 +31,19 @@ struct JointLimits {
   double jerk = 0;          ///< rad/s³ or m/s³; 0 stands for none
 };
 
-/// Is one movable joint with its place on the previous body.
+/// Describes one movable joint with its place on the previous body.
 struct Joint {
   std::string name;
   JointType type = JointType::revolute;
   /// Holds the joint frame at coordinate 0, in the previous body.
   Eigen::Isometry3d origin = Eigen::Isometry3d::Identity();
-  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< Is a unit vector in the joint frame.
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< unit vector in the joint frame
   JointLimits limits;
   double friction = 0;  ///< Coulomb friction, N·m or N
   double damping = 0;   ///< viscous friction, N·m·s/rad or N·s/m
 };
 
-/// Is centred on the origin; the radius is in m.
+/// Describes a sphere centred on the origin; the radius is in m.
 struct Sphere {
   double radius = 0;
 };
@@ -53,40 +54,40 @@ struct Capsule {
   double length = 0;
 };
 
-/// Is centred on the origin, with its sides along the axes.
+/// Describes a box centred on the origin, with its sides along the axes.
 struct Box {
-  /// Holds full edge lengths in m; the box is centred on the origin.
+  /// Holds full edge lengths in m.
   Eigen::Vector3d size = Eigen::Vector3d::Zero();
 };
 
-/// Is a shape that is fixed to a body.
+/// Holds a shape that is fixed to a body.
 struct CollisionShape {
-  std::string link;                                        ///< Names the URDF link that the shape came from.
-  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();  ///< Is the shape's, in the body's frame.
+  std::string link;                                        ///< URDF link that the shape came from
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();  ///< of the shape in the body's frame
   std::variant<Sphere, Capsule, Box> form;
 };
 
 /// Holds mass (kg), centre and inertia of a rigid body.
 struct MassProperties {
   double mass = 0;
-  Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< Is the centre of mass in the body's frame, m.
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< centre of mass in the body's frame, m
   /// Holds the inertia about the centre of mass, in the axes of the body's frame, kg·m².
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
 };
 
-/// Is a rigid body of the arm with all that is fixed to it.
+/// Describes a rigid body of the arm with all that is fixed to it.
 struct Body {
-  std::string name;  ///< Names the first URDF link of the body.
+  std::string name;  ///< first URDF link of the body
   MassProperties mass;
   std::vector<CollisionShape> shapes;
 };
 
-/// Is the whole arm; body i+1 hangs on body i by joint i.
+/// Describes the whole arm; joint i joins body i+1 to body i.
 struct Arm {
   std::string name;
   std::vector<Joint> joints;                               ///< kMinJoints..kMaxJoints
   std::vector<Body> bodies;                                ///< joints.size() + 1
-  Eigen::Isometry3d tool = Eigen::Isometry3d::Identity();  ///< Is the tip link in the last body's frame.
+  Eigen::Isometry3d tool = Eigen::Isometry3d::Identity();  ///< pose of the tip link in the last body's frame
 };
 
 /// Returns whether the coordinates lie within the position limits, up to `tolerance`; a vector of another

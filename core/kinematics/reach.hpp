@@ -10,7 +10,7 @@ namespace roci::kinematics {
 struct ReachBound {
   Eigen::Vector3d from = Eigen::Vector3d::Zero();
   Eigen::Vector3d to = Eigen::Vector3d::Zero();
-  double radius = 0;  ///< Is the sum of the link lengths behind the first joint that turns.
+  double radius = 0;  ///< sum of the link lengths beyond the first joint that turns, m
 
   /// Returns by how much a point lies outside, m; 0 within.
   double excess(const Eigen::Vector3d& point) const;

@@ -16,19 +16,20 @@ namespace roci::kinematics {
 
 /// Says what the URDF itself leaves open.
 struct UrdfOptions {
-  std::string tip;  ///< Names the link that is the tool frame.
-  /// Joints without an acceleration limit reach their speed limit in this time.
+  std::string tip;  ///< link that is the tool frame
+  /// Gives the time in which joints without an acceleration limit reach their speed limit.
   double time_to_speed_s = 0.5;
-  /// Joints without a jerk limit reach their acceleration limit in this time; 0: at once, they have none.
+  /// Gives the time in which joints without a jerk limit reach their acceleration limit; 0: at once, without
+  /// a jerk limit.
   double time_to_acceleration_s = 0;
 };
 
 /// Says why a document is no arm, and where.
 struct UrdfError {
   std::string file;
-  int line = 0;         ///< Counts from 1; 0 stands for the document as a whole.
-  std::string element;  ///< Reads as "joint 'elbow'" or "robot".
-  std::string message;  ///< It says what is wrong and how to mend it.
+  int line = 0;         ///< counts from 1; 0 stands for the document as a whole
+  std::string element;  ///< e.g. "joint 'elbow'" or "robot"
+  std::string message;  ///< what is wrong and how to mend it
 };
 
 /// Returns "file:line: element: message".

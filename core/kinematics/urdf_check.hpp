@@ -15,8 +15,8 @@ namespace roci::kinematics {
 struct UrdfNotes {
   std::map<std::string, int> link_line;
   std::map<std::string, int> joint_line;
-  std::map<std::string, double> acceleration;  ///< Has the joints whose <limit> gives one.
-  std::map<std::string, double> jerk;          ///< Has the joints whose <limit> gives one.
+  std::map<std::string, double> acceleration;  ///< joints whose <limit> gives one
+  std::map<std::string, double> jerk;          ///< joints whose <limit> gives one
 };
 
 /// Checks a document. One that passes has unique names, known joint types, finite numbers, limits with lower

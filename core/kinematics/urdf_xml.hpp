@@ -10,7 +10,7 @@
 
 namespace roci::kinematics::xml {
 
-/// Is thrown inside the URDF reader only; check_urdf() turns it into its return value.
+/// Carries a fault out of the URDF reader, inside it only; check_urdf() turns it into its return value.
 struct Failure {
   int line;
   std::string element;

@@ -1,4 +1,4 @@
-// Numbers of mission files that make sense only between two bounds.
+// This file reads numbers of mission files that are valid only between two bounds.
 #pragma once
 
 #include <optional>

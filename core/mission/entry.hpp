@@ -27,8 +27,8 @@ class FileError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Is one value of a mission file with its place in it. Every accessor throws FileError when the value is not
-/// of the kind asked for.
+/// Holds one value of a mission file with its place in it. Every accessor throws FileError when the value is
+/// not of the kind asked for.
 ///
 /// A file that was loaded with `findings` is read to its end: each(), each_field(), attempt(), complain() and
 /// allow_only() note a fault there and go on, so that one reader serves who flies (the first fault ends it) and
@@ -37,12 +37,12 @@ class Entry {
  public:
   /// Reads the root of a file. Throws FileError if it cannot be read, is not YAML, or is not a mapping.
   static Entry load(const std::filesystem::path& file, Findings* findings = nullptr);
-  /// Reads a text that came otherwise; `name` stands for the file in what it says of places. Throws FileError
-  /// as load() does.
+  /// Reads a text from elsewhere; `name` replaces the file's name in reported places. Throws FileError as
+  /// load() does.
   static Entry parse(const std::string& text, const std::string& name, Findings* findings = nullptr);
 
-  /// Returns this mapping with what it does not hold itself taken from another one, key by key and not deeper: a key
-  /// that stands here counts, also where nothing stands behind it. Each value keeps the place and the file that it
+  /// Returns this mapping, with the keys that it lacks taken from another one. A key that is present here counts
+  /// even if its value is empty; nested mappings are not merged. Each value keeps the place and the file that it
   /// came from. Throws FileError where one of the two is no mapping.
   Entry with_base(const Entry& base) const;
 
@@ -57,13 +57,13 @@ class Entry {
   void each(const std::function<void(const Entry&)>& read) const;
   /// Reads the fields of a mapping one by one.
   void each_field(const std::function<void(const std::string& key, const Entry& value)>& read) const;
-  /// Reads a part that the rest can do without.
+  /// Reads a part without which reading can go on.
   void attempt(const std::function<void()>& read) const;
   bool is_mapping() const;
   bool is_sequence() const;
 
   std::string text() const;
-  double number() const;  ///< It is finite.
+  double number() const;  ///< is finite
   std::int64_t integer() const;
   bool truth() const;
   std::vector<std::string> texts() const;
@@ -78,7 +78,7 @@ class Entry {
   [[noreturn]] void fail(const std::string& what) const;
   /// Fails, or where findings are collected notes it and returns: for faults after which reading goes on.
   void complain(const std::string& what) const;
-  std::string place() const;  ///< It reads "file:line:column".
+  std::string place() const;  ///< "file:line:column"
   const std::filesystem::path& file() const;
   /// Resolves a name relative to the file's folder.
   std::filesystem::path resolve(const std::string& relative) const;

@@ -1,4 +1,4 @@
-// What is wrong in files, for programs: the array that every checker prints with --json.
+// This file writes findings for programs: the array that every checker prints with --json.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

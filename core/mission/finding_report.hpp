@@ -1,4 +1,4 @@
-// What is wrong in files, in the lines in which programs that check files print it.
+// This file writes findings as the lines that programs that check files print.
 #pragma once
 
 #include <string>

@@ -1,4 +1,5 @@
-// What is wrong in the files of a mission, one finding per fault: readers that collect note one and go on.
+// Findings say what is wrong in the files of a mission, one per fault; readers that collect them note one and
+// go on.
 #pragma once
 
 #include <string>
@@ -6,12 +7,13 @@
 
 namespace roci::mission {
 
+/// Says how much a finding weighs.
 enum class Severity {
   error,    ///< the mission cannot be flown as it is meant
   warning,  ///< it can be flown, but something in it can hardly be meant
 };
 
-/// Is one fault with its place.
+/// Describes one fault with its place.
 struct Finding {
   std::string file;  ///< as it was named to the reader
   int line = 0;      ///< counts from 1; 0: the file as a whole
@@ -20,7 +22,7 @@ struct Finding {
   std::string what;    ///< in plain words
   std::string remedy;  ///< what to do about it; may be empty
 
-  /// Reads "file:line:column: what", and "file:line:column" where no line is known "file".
+  /// Returns "file:line:column: what", or "file: what" where no line is known.
   std::string text() const;
   bool operator==(const Finding&) const = default;
 };

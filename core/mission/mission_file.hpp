@@ -1,4 +1,4 @@
-// mission.yaml as a file of a stated format (docs/formats.md publishes its schema).
+// mission.yaml is a file of a stated format (docs/formats.md publishes its schema).
 #pragma once
 
 #include <filesystem>
@@ -7,10 +7,11 @@
 
 namespace roci::mission {
 
-/// The newest format of mission.yaml that this code reads. It rises when a key changes its meaning or goes.
+/// Numbers the newest format of mission.yaml that this code reads. It rises when a key changes its meaning or
+/// goes.
 inline constexpr int kMissionFormat = 1;
 
-/// What a service reads: a mission file is named itself or by its folder, whose mission.yaml it then is.
+/// Returns the file that a service reads: the file itself, or the mission.yaml of a folder.
 std::filesystem::path mission_file(const std::filesystem::path& folder_or_file);
 
 /// Reads a mission file; one that states no `format` is of format 1. What it does not say itself is as in the file that

@@ -10,7 +10,7 @@
 
 namespace roci::mission {
 
-/// The names of the scenarios of a mission, in alphabetical order.
+/// Returns the names of the scenarios of a mission, in alphabetical order.
 std::vector<std::string> scenario_names(const std::filesystem::path& folder_or_file);
 
 /// Reads a scenario of a mission. Throws FileError; for a name that no file has, it lists those that there are.

@@ -11,25 +11,26 @@
 
 namespace roci::mission {
 
-/// Is one process of a run.
+/// Describes one process of a run.
 struct ServiceEntry {
   std::string name;  ///< logical name, unique in the mission; samples carry it as their sender
   /// Names a program beside the launcher, or a path seen from the mission's folder if it holds a '/'.
   std::string program;
-  std::string robot;   ///< its inner topics it shares; empty: the team's, with those of every robot
+  std::string robot;   ///< robot whose inner topics it shares; empty: the team's, with those of every robot
   std::string vendor;  ///< DDS vendor in a mixed run; empty: the run's first vendor
   std::filesystem::path settings;  ///< the mission file that it reads, mission.yaml unless another is named
   bool clock_master = false;       ///< it drives the simulated clock; at most one does
   bool paired = false;             ///< the run has a second process of it, a standby (program option --pair)
   bool essential = true;  ///< the run ends when it cannot be kept; else the mission goes on without it
   std::vector<std::string> arguments;  ///< appended to its command line
-  /// What it may do in a secure run, in the words of services/security/topic_rights.hpp; empty: what its program does.
+  /// Lists what it may do in a secure run, in the words of services/security/topic_rights.hpp; empty: what its program
+  /// does.
   std::vector<std::string> rights{};
 };
 
 /// Holds the processes of a run in the order of the mission file.
 struct ServiceList {
-  std::vector<std::string> robots;  ///< come in the order of `robots:`, as it names them
+  std::vector<std::string> robots;  ///< in the order of `robots:`, as it names them
   std::vector<ServiceEntry> services;
 
   /// Returns the service of that name, or null if there is none.
@@ -38,13 +39,13 @@ struct ServiceList {
   /// Returns the service with `clock: master`, or null if there is none: then the mission can only be flown
   /// live.
   const ServiceEntry* clock_master() const;
-  /// Those that run this program, in the order of the list.
+  /// Returns the services that run this program, in the order of the list.
   std::vector<const ServiceEntry*> of_program(std::string_view program) const;
-  /// What a file of this service is called in the run folder, which all services share: `name` if no other
-  /// service of the mission runs its program, else with the service's own name before it.
+  /// Returns the name of a file of this service in the run folder, which all services share: `name` if no
+  /// other service of the mission runs its program, else with the service's own name before it.
   std::string file_name(std::string_view service, const std::string& name) const;
-  /// The only service of a program that serves this robot: its own, else the team's. Empty if there is none
-  /// or a choice.
+  /// Returns the only service of a program that serves this robot: its own, else the team's. The name is
+  /// empty if there is none, or several.
   std::string serving(std::string_view program, std::string_view robot) const;
 };
 
@@ -55,7 +56,7 @@ ServiceList read_service_list(const Entry& mission);
 
 /// Reads the list of mission.yaml in that folder. Throws FileError.
 ServiceList load_service_list(const std::filesystem::path& mission_folder);
-/// The same, and an empty list where mission.yaml has none.
+/// Does the same, and returns an empty list where mission.yaml has none.
 ServiceList load_service_list_if_any(const std::filesystem::path& mission_folder);
 
 }  // namespace roci::mission

@@ -1,4 +1,5 @@
-// What is wrong has been told already: the entry that stands on it cannot be read either, which is no news.
+// A told error says that the fault was reported already: an entry that depends on the faulty one cannot be
+// read either, which is no news.
 #pragma once
 
 #include "core/mission/entry.hpp"

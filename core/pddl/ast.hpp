@@ -20,7 +20,7 @@ namespace roci::pddl {
 
 // ---- Names, terms, types
 
-/// Is a variable ("?x", with its question mark) or the name of an object.
+/// Names a variable ("?x", with its question mark) or an object.
 struct Term {
   std::string name;
   SourceLocation where;
@@ -28,15 +28,15 @@ struct Term {
   bool is_variable() const { return !name.empty() && name.front() == '?'; }
 };
 
-/// Is a variable, object or type with its type(s): several alternatives for `(either a b)`, {"object"} if
-/// untyped.
+/// Declares a variable, object or type with its type(s): several alternatives for `(either a b)`, {"object"}
+/// if untyped.
 struct TypedName {
   std::string name;
   std::vector<std::string> types = {"object"};
   SourceLocation where;
 };
 
-/// Is a predicate, fluent or external function applied to terms.
+/// Applies a predicate, fluent or external function to terms.
 struct Atom {
   std::string symbol;
   std::vector<Term> arguments;
@@ -54,7 +54,7 @@ struct Signature {
 
 struct Expression;
 
-/// Is a number as it stands in the text.
+/// Holds a number as the text has it.
 struct Number {
   double value = 0;
 };
@@ -63,6 +63,7 @@ struct DurationVariable {};  ///< ?duration
 struct TotalTime {};         ///< total-time, in metrics
 struct ContinuousTime {};    ///< #t: parsed so that it can be refused by name (forbidden.hpp)
 
+/// Names the operators of numeric expressions.
 enum class ArithmeticOperator { add, subtract, multiply, divide };
 
 /// Joins operands: one operand with subtract is the negative; add and multiply take two or more, the others
@@ -72,7 +73,8 @@ struct Arithmetic {
   std::vector<Expression> operands;
 };
 
-/// An Atom is the value of a fluent, or of an external function if a module declares its symbol.
+/// Holds a numeric expression. An Atom stands for the value of a fluent, or of an external function if a
+/// module declares its symbol.
 struct Expression {
   std::variant<Number, Atom, DurationVariable, TotalTime, ContinuousTime, Arithmetic> node;
   SourceLocation where;
@@ -121,6 +123,7 @@ struct TermEquality {
   Term right;
 };
 
+/// Names the comparisons of numbers.
 enum class ComparisonOperator { less, less_equal, equal, greater_equal, greater };
 
 /// Compares two numeric expressions.
@@ -130,7 +133,7 @@ struct Comparison {
   Expression right;
 };
 
-/// Is a condition of any form.
+/// Holds a condition of any form.
 struct Condition {
   std::variant<And, Or, Not, Imply, Forall, Exists, Atom, TermEquality, Comparison> node;
   SourceLocation where;
@@ -148,12 +151,13 @@ struct TimedCondition {
 
 struct Effect;
 
-/// Is an atom or its negation.
+/// Holds an atom or its negation.
 struct Literal {
   Atom atom;
   bool negated = false;
 };
 
+/// Names the ways in which an effect changes a fluent.
 enum class AssignmentOperator { assign, increase, decrease, scale_up, scale_down };
 
 /// Changes a fluent to, or by, the value of an expression.
@@ -163,9 +167,9 @@ struct Assignment {
   Expression value;
 };
 
-/// Is a conditional effect. The condition may look at another time than the effect's own: the end effect of
-/// `(when (at start (p)) (at end (q)))` has p in condition.at_start. `(at end (when (p) (q)))` has it in
-/// condition.at_end, and a plain action in condition.at_start.
+/// Describes a conditional effect. The condition may look at another time than the effect's own: the end
+/// effect of `(when (at start (p)) (at end (q)))` has p in condition.at_start. `(at end (when (p) (q)))` has
+/// it in condition.at_end, and a plain action in condition.at_start.
 struct When {
   TimedCondition condition;
   std::vector<Effect> effects;
@@ -177,7 +181,7 @@ struct ForallEffect {
   std::vector<Effect> effects;
 };
 
-/// Is one effect; an `and` in effects is dissolved into the vector that holds it.
+/// Holds one effect; an `and` in effects is dissolved into the vector that holds it.
 struct Effect {
   std::variant<Literal, Assignment, When, ForallEffect> node;
   SourceLocation where;
@@ -185,7 +189,7 @@ struct Effect {
 
 // ---- Actions
 
-/// Is an instantaneous action, (:action …).
+/// Describes an instantaneous action, (:action …).
 struct Action {
   std::string name;
   std::vector<TypedName> parameters;
@@ -194,6 +198,7 @@ struct Action {
   SourceLocation where;
 };
 
+/// Names the end of an action at which a bound is evaluated.
 enum class TimePoint { start, end };
 
 /// Says ?duration OP bound, where the bound is evaluated at the given point and OP is <=, = or >=.
@@ -204,8 +209,8 @@ struct DurationConstraint {
   SourceLocation where;
 };
 
-/// Is ⟨pre⊢, eff⊢, pre↔, pre⊣, eff⊣⟩ with bounds on the duration (R2); without any constraint every duration
-/// ≥ 0 is allowed.
+/// Describes ⟨pre⊢, eff⊢, pre↔, pre⊣, eff⊣⟩ with bounds on the duration (R2); without any constraint every
+/// duration ≥ 0 is allowed.
 struct DurativeAction {
   std::string name;
   std::vector<TypedName> parameters;
@@ -218,7 +223,7 @@ struct DurativeAction {
   SourceLocation where;
 };
 
-/// Is `(:derived (head ?x - t …) body)`.
+/// Defines a derived predicate, `(:derived (head ?x - t …) body)`.
 struct DerivedPredicate {
   Signature head;
   Condition body;
@@ -226,7 +231,7 @@ struct DerivedPredicate {
 
 // ---- Domain
 
-/// Is one entry of (:requirements …).
+/// Holds one entry of (:requirements …).
 struct Requirement {
   std::string keyword;  ///< has its colon: ":typing"
   SourceLocation where;
@@ -259,9 +264,9 @@ struct LevelParameter {
   std::map<std::string, double> levels;  ///< by the object that stands for it
 };
 
-/// Is a whole domain file; its lists keep the order of the text.
+/// Holds a whole domain file; its lists keep the order of the text.
 struct Domain {
-  std::string file;  ///< is as given to the parser, for messages
+  std::string file;  ///< as given to the parser, for messages
   std::string name;
   std::vector<Requirement> requirements;
   std::vector<TypedName> types;  ///< name and its supertype(s)
@@ -279,20 +284,20 @@ struct Domain {
 
 // ---- Problem
 
-/// Is an entry of :init: (= (f a) 3).
+/// Holds an entry of :init: (= (f a) 3).
 struct InitialValue {
   Atom fluent;
   double value = 0;
 };
 
-/// Is a timed initial literal, (at 5 (p)) or (at 7 (not (p))), with its time in seconds.
+/// Holds a timed initial literal, (at 5 (p)) or (at 7 (not (p))), with its time in seconds.
 struct TimedLiteral {
   double time = 0;
   Literal literal;
   SourceLocation where;
 };
 
-/// Is a timed initial fluent, (at 5 (= (f a) 3)), with its time in seconds.
+/// Holds a timed initial fluent, (at 5 (= (f a) 3)), with its time in seconds.
 struct TimedValue {
   double time = 0;
   Atom fluent;
@@ -300,7 +305,7 @@ struct TimedValue {
   SourceLocation where;
 };
 
-/// Is the (:metric …) of a problem.
+/// Holds the (:metric …) of a problem.
 struct Metric {
   enum class Sense { minimize, maximize };
   Sense sense = Sense::minimize;
@@ -308,9 +313,9 @@ struct Metric {
   SourceLocation where;
 };
 
-/// Is a whole problem file; its lists keep the order of the text.
+/// Holds a whole problem file; its lists keep the order of the text.
 struct Problem {
-  std::string file;  ///< is as given to the parser, for messages
+  std::string file;  ///< as given to the parser, for messages
   std::string name;
   std::string domain_name;
   std::vector<Requirement> requirements;

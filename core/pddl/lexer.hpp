@@ -12,7 +12,7 @@ namespace roci::pddl {
 /// Bounds the length of a name, in characters.
 inline constexpr std::size_t kMaxWord = 1000;
 
-/// Is one parenthesis, one word, or the end of the text. The word refers to the text of the lexer.
+/// Holds one parenthesis, one word, or the end of the text. The word refers to the text of the lexer.
 struct Token {
   enum class Kind { open, close, word, end };
   Kind kind = Kind::end;

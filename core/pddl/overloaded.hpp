@@ -3,7 +3,7 @@
 
 namespace roci::pddl {
 
-/// Is callable with whatever one of its lambdas takes.
+/// Accepts whatever one of its lambdas takes.
 template <typename... Functions>
 struct Overloaded : Functions... {
   using Functions::operator()...;

@@ -15,10 +15,10 @@
 
 namespace roci::pddl {
 
-/// Is the same type as temporal::Duration.
+/// Names the same type as temporal::Duration.
 using Microseconds = std::chrono::duration<std::int64_t, std::micro>;
 
-/// Is one step of a plan; an instantaneous one may have no duration.
+/// Holds one step of a plan; an instantaneous one may have no duration.
 struct PlanStep {
   Microseconds start{0};
   Atom action;  ///< names of objects, no variables

@@ -1,5 +1,5 @@
-// Requirement flags of PDDL: which of them a domain or problem would need for what it says (PDDL 2.1, appendix A.1;
-// PDDL 2.2 for derived predicates and timed literals).
+// Requirement flags of PDDL say what a domain or problem needs (PDDL 2.1, appendix A.1; PDDL 2.2 for derived
+// predicates and timed literals).
 #pragma once
 
 #include <map>

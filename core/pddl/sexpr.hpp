@@ -14,8 +14,8 @@ namespace roci::pddl {
 /// Bounds the accepted nesting of parentheses; everything that walks a syntax tree may recurse this deep.
 inline constexpr int kMaxNesting = 200;
 
-/// Is a lower-cased word (name, keyword, variable, number, operator) or a list. It refers to what its SexprTree owns,
-/// and is as cheap to copy as a view.
+/// Refers to a lower-cased word (name, keyword, variable, number, operator) or a list that its SexprTree
+/// owns. It is as cheap to copy as a view.
 class Sexpr {
  public:
   static Sexpr word_at(std::string_view word, SourceLocation where) {

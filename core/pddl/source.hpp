@@ -62,7 +62,7 @@ struct Diagnostic {
   std::string message;
   std::string remedy;
   Severity severity = Severity::error;
-  Departure departure = Departure::none;  ///< is something else with a warning alone, or in strict reading
+  Departure departure = Departure::none;  ///< set for warnings, and in strict reading
 };
 
 /// Prints "file:line:column: error: message (remedy)"; a warning ends with its departure, as "[comma]".
@@ -71,7 +71,7 @@ std::string to_string(const Diagnostic& diagnostic);
 /// Prints one line each, without a newline at the end.
 std::string to_text(std::span<const Diagnostic> diagnostics);
 
-/// Is thrown for any text that cannot be taken as what it claims to be. Has all that is wrong with it, in the order of
+/// Reports a text that cannot be taken as what it claims to be. It holds all that is wrong with it, in the order of
 /// the text, though at most kMostTold; what() is a line of to_string() for each, and "and N more" if there are.
 class ParseError : public std::runtime_error {
  public:
@@ -86,7 +86,8 @@ class ParseError : public std::runtime_error {
   const std::vector<Diagnostic>& diagnostics() const { return diagnostics_; }
   /// Returns how many findings are not among diagnostics().
   std::size_t untold() const { return untold_; }
-  /// Returns whether something in the text is not supported: it would be refused with all its errors mended, too.
+  /// Returns whether something in the text is not supported, so that it would be refused even with all errors
+  /// mended.
   bool unsupported() const;
   const std::string& file() const { return diagnostic().file; }
   int line() const { return diagnostic().where.line; }

@@ -1,5 +1,5 @@
-// External functions of the state: a value that depends on a fluent is asked for at declared levels of it, and the
-// level at which an action starts is one more parameter of the action. So planner and validator meet PDDL alone.
+// External functions may depend on the state: such a value is asked for at declared levels of a fluent, and the
+// level at which an action starts is one more parameter of the action. Planner and validator thus meet PDDL alone.
 #pragma once
 
 #include <vector>

@@ -1,5 +1,5 @@
-// (total-cost), the one fluent that needs no initial value: problems of the competitions count with it from 0
-// on, whether they say so or not.
+// (total-cost) is the one fluent that needs no initial value: problems of the competitions count with it from
+// 0 on, whether they say so or not.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-/// Pseudorandom numbers that are equal on every machine, which the distributions of the
-/// standard library do not promise.
+// Pseudorandom numbers are equal on every machine here, which the distributions of the standard library do
+// not promise.
 #pragma once
 
 #include <cstdint>
@@ -14,8 +14,8 @@ constexpr std::uint64_t finalized(std::uint64_t bits) {
   return bits ^ (bits >> 31U);
 }
 
-/// Is SplitMix64 (Steele, Lea, Flood, "Fast splittable pseudorandom number generators", OOPSLA 2014): a whole
-/// random sequence in integers, equal on every machine.
+/// Generates by SplitMix64 (Steele, Lea, Flood, "Fast splittable pseudorandom number generators", OOPSLA
+/// 2014): a whole random sequence in integers, equal on every machine.
 class SplitMix64 {
  public:
   explicit SplitMix64(std::uint64_t seed) : state_(seed) {}

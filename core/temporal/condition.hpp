@@ -26,7 +26,7 @@ enum class ConditionOp {
   gt
 };
 
-/// Is one node of a condition's tree; its subtrees follow it in the array.
+/// Holds one node of a condition's tree; its subtrees follow it in the array.
 struct ConditionNode {
   ConditionOp op = ConditionOp::always;
   std::uint32_t child_count = 0;
@@ -35,7 +35,7 @@ struct ConditionNode {
   friend bool operator==(const ConditionNode&, const ConditionNode&) = default;
 };
 
-/// Is a condition; without nodes it is always true.
+/// Holds a condition; without nodes it is always true.
 struct Condition {
   std::vector<ConditionNode> nodes;
   bool empty() const { return nodes.empty(); }
@@ -49,6 +49,7 @@ Condition all_of(const std::vector<Condition>& parts);
 Condition any_of(const std::vector<Condition>& parts);
 Condition negate(const Condition& part);
 
+/// Names the values of three-valued logic.
 enum class Truth { no, unknown, yes };
 
 /// Returns the value of a timeline, or nothing where it was never observed.

@@ -14,6 +14,7 @@
 
 namespace roci::temporal {
 
+/// Says what a temporal constraint is for; the network treats all kinds alike.
 enum class ConstraintKind { ordering, duration, window };
 
 /// Requires lower <= t[to_point] - t[from_point] <= upper. Point 0 is the plan's origin. upper must be >= 0
@@ -27,7 +28,10 @@ struct TemporalConstraint {
   friend bool operator==(const TemporalConstraint&, const TemporalConstraint&) = default;
 };
 
+/// Says how an impact changes a timeline.
 enum class ImpactKind { assign, delta, rate };  ///< rate: per second
+
+/// Says when in its activity an impact acts.
 enum class ImpactWhen { at_start, at_end, during };
 
 /// Says what an activity does to a timeline, and when.
@@ -41,16 +45,17 @@ struct Impact {
 
 /// Says what happens when an activity's latest start has passed.
 enum class LatenessPolicy {
-  /// The plan is broken (Stellar, R49).
+  /// Breaks the plan (Stellar, R49).
   replan,
-  /// It waits on until wait_timeout, and succeeds only after the shortest duration has elapsed (MEXEC, R86,
-  /// R98).
+  /// Lets it wait on until wait_timeout, and succeed only after the shortest duration has elapsed (MEXEC,
+  /// R86, R98).
   push,
-  /// It does as `replan`, and must moreover end before the latest next change of its timeline (SanchoExpress,
-  /// R144).
+  /// Does as `replan`; the activity must moreover end before the latest next change of its timeline
+  /// (SanchoExpress, R144).
   deadline,
 };
 
+/// Says whether an engine may still change an activity in its next versions (R78).
 enum class CommitState { planned, committed };
 
 /// Says what else fails with an activity that has failed for good.
@@ -59,6 +64,7 @@ enum class FailureScope {
   of_activity,  ///< nothing: it fails alone, what needs its effects fails or is skipped when its turn comes
 };
 
+/// Says how far an activity has come, as everybody sees it.
 enum class ActivityState { waiting, dispatched, running, succeeded, failed, skipped, cancelled };
 /// Returns whether the activity has ended, or never will start.
 constexpr bool is_over(ActivityState state) {
@@ -66,14 +72,14 @@ constexpr bool is_over(ActivityState state) {
          state != ActivityState::running;
 }
 
-/// Is a named word, as an argument of a command is.
+/// Holds a named word, such as an argument of a command.
 struct Property {
   std::string name;
   std::string value;
   friend bool operator==(const Property&, const Property&) = default;
 };
 
-/// Is one command of a sequence; the members mean what they mean in PlanActivity.
+/// Describes one command of a sequence; the members mean what they mean in PlanActivity.
 struct PlanCommand {
   std::string owner;
   std::string robot;
@@ -84,15 +90,15 @@ struct PlanCommand {
   friend bool operator==(const PlanCommand&, const PlanCommand&) = default;
 };
 
-/// Is one activity. The executive sends (id, attempt) as a command's key: ids must not be used again in later
-/// plans for anything else.
+/// Describes one activity. The executive sends (id, attempt) as a command's key: ids must not be used again
+/// in later plans for anything else.
 struct PlanActivity {
   std::string id;
   std::string name;    ///< action or task name
-  std::string level;   ///< of the hierarchy, e.g. "mission" (R130); empty: plans without one
+  std::string level;   ///< level of the hierarchy, e.g. "mission" (R130); empty: plans without one
   std::string parent;  ///< activity of the level above; empty: none
   std::string owner;   ///< service that executes the command; empty: no command, internal states only
-  std::string robot;   ///< has the subsystem; empty: the owner's only one
+  std::string robot;   ///< robot that has the subsystem; empty: the owner's only one
   std::string subsystem;
   std::string command_name;
   std::vector<Property> arguments;
@@ -140,7 +146,7 @@ enum class ResolverKind {
   rule,  ///< the choices' own conditions: the first choice whose rule holds is taken
 };
 
-/// Is one of the ways in which a decision may go.
+/// Describes one of the ways in which a decision may go.
 struct DecisionChoice {
   std::string name;
   std::vector<std::string> activities{};  ///< ids; those of the other choices are skipped
@@ -155,8 +161,8 @@ struct ArgumentBinding {
   friend bool operator==(const ArgumentBinding&, const ArgumentBinding&) = default;
 };
 
-/// Is an open choice that is made at run time, before `decide_before` may happen (R131): an answer picks one
-/// of the choices' activities, or binds a value to arguments of activities that have not started.
+/// Describes an open choice that is made at run time, before `decide_before` may happen (R131): an answer
+/// picks one of the choices' activities, or binds a value to arguments of activities that have not started.
 struct DecisionPoint {
   std::string id;
   std::string resolver;  ///< service or issuer that is asked; empty: whoever is of the kind
@@ -187,7 +193,7 @@ struct FunctionValueUse {
   friend bool operator==(const FunctionValueUse&, const FunctionValueUse&) = default;
 };
 
-/// Is a whole plan; times are relative to `origin`.
+/// Holds a whole plan; times are relative to `origin`.
 struct FlexiblePlan {
   std::string id;
   std::uint32_t version = 0;

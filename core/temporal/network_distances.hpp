@@ -1,4 +1,4 @@
-// How far two points of a network lie apart at least and at most, whichever they are.
+// Network distances say how far any two points of a network lie apart at least and at most.
 #pragma once
 
 #include <vector>

@@ -14,7 +14,7 @@ namespace roci::temporal {
 /// activities may be given to new ones, in the same change or later, so that a plan that never ends needs no more
 /// points than it holds at once.
 struct PlanDelta {
-  std::uint32_t from_version = 0;  ///< is that of the plan that changes; 0: none, `added` is the whole plan
+  std::uint32_t from_version = 0;  ///< version of the plan that changes; 0: none, `added` is the whole plan
   /// Holds id, version, engine, origin, number of points and function values as they become, and activities,
   /// tokens, decisions and constraints that are new. An activity or decision stands in place of that with its
   /// id.

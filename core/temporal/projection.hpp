@@ -17,7 +17,8 @@ struct ActivityProgress {
   std::optional<Time> started;
   std::optional<Time> ended;
 };
-using Progress = std::map<std::string, ActivityProgress>;  ///< goes by activity id; who is not in it waits
+using Progress =
+    std::map<std::string, ActivityProgress>;  ///< by activity id; an activity that is missing waits
 
 /// Says on what a projected change rests.
 enum class ProjectionKind {
@@ -33,7 +34,7 @@ struct ObservedValue {
   Time sampled{0};
   Value value;
 };
-using ObservedValues = std::map<std::string, ObservedValue>;  ///< goes by timeline
+using ObservedValues = std::map<std::string, ObservedValue>;  ///< by timeline
 
 /// Says that the timeline has `value` from `time` on; between two changes a number that is under a rate runs
 /// straight.

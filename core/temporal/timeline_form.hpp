@@ -1,5 +1,5 @@
-// The form of flexible timelines (R142; SanchoExpress, section 5.1): the values of a timeline stand in order, without
-// gap or overlap, from the origin to the horizon.
+// Flexible timelines have this form (R142; SanchoExpress, section 5.1): the values of a timeline stand in order,
+// without gap or overlap, from the origin to the horizon.
 #pragma once
 
 #include <string>

@@ -7,14 +7,14 @@
 
 namespace roci::temporal {
 
-/// Is a named state with arguments: going-to (wp-2).
+/// Holds a named state with arguments: going-to (wp-2).
 struct State {
   std::string name;
   std::vector<std::string> arguments;
   friend bool operator==(const State&, const State&) = default;
 };
 
-/// Is none, a boolean, a number or a state, in the order of ValueKind in idl/basic.idl.
+/// Holds none, a boolean, a number or a state, in the order of ValueKind in idl/basic.idl.
 using Value = std::variant<std::monostate, bool, double, State>;
 
 /// Returns a state as a value.

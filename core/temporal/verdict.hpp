@@ -6,7 +6,7 @@
 
 namespace roci::temporal {
 
-/// Has the order of Verdict in idl/planner.idl.
+/// Says how a call ended, in the order of Verdict in idl/planner.idl.
 enum class Verdict : std::uint8_t {
   solved,                ///< a plan came with it
   unsolvable,            ///< proved: no plan achieves all goals

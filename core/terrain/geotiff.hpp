@@ -1,4 +1,4 @@
-// Elevations from a GeoTIFF, with GDAL where the build has it.
+// This file reads elevations from a GeoTIFF, with GDAL where the build has it.
 #pragma once
 #include <filesystem>
 #include <vector>

@@ -1,4 +1,4 @@
-/// Positions in metres and cells of a square grid in the map frame.
+// Positions are in metres, and cells belong to a square grid in the map frame.
 #pragma once
 
 #include <cmath>
@@ -6,7 +6,7 @@
 
 namespace roci::terrain {
 
-/// Is a position in the map frame in metres: x points east, y north.
+/// Holds a position in the map frame in metres: x points east, y north.
 struct Point {
   double x = 0;
   double y = 0;
@@ -18,7 +18,7 @@ inline double distance(Point a, Point b) {
   return std::sqrt((a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y));
 }
 
-/// The column counts east and row counts north, both from the south-west corner.
+/// Names a cell: the column counts east and the row counts north, both from the south-west corner.
 struct Cell {
   int column = 0;
   int row = 0;

@@ -1,4 +1,4 @@
-// Holes of an elevation layer, filled from their neighbours.
+// Holes of an elevation layer are filled from their neighbours here.
 #pragma once
 #include <cstddef>
 #include <vector>

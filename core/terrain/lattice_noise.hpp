@@ -1,4 +1,4 @@
-/// Random terrain in whole numbers, so that a seed gives the same site on every machine.
+// Random terrain is made in whole numbers, so that a seed gives the same site on every machine.
 #pragma once
 
 #include <cstdint>

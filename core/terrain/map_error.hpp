@@ -1,4 +1,4 @@
-/// The error of every reader of maps and sites.
+// This error belongs to every reader of maps and sites.
 #pragma once
 
 #include <stdexcept>
@@ -6,8 +6,8 @@
 
 namespace roci::terrain {
 
-/// Is thrown for a map that cannot be used. what() reads "file:line:column: what is wrong; remedy" (line and
-/// column only where the fault has a place in a text).
+/// Reports a map that cannot be used. what() reads "file:line:column: what is wrong; remedy" (line and column
+/// only where the fault has a place in a text).
 class MapError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

@@ -1,4 +1,4 @@
-/// Grey images as files: the form in which layers of a site are kept.
+// Grey images are the files in which layers of a site are kept.
 #pragma once
 
 #include <cstdint>
@@ -9,8 +9,8 @@
 
 namespace roci::terrain {
 
-/// Is a grey image as the netpbm PGM format has it (netpbm.sourceforge.net/doc/pgm.html): rows from the top
-/// (north) down, values 0 … max_value, max_value 1 … 65535.
+/// Holds a grey image as the netpbm PGM format has it (netpbm.sourceforge.net/doc/pgm.html): rows from the
+/// top (north) down, values 0 … max_value, max_value 1 … 65535.
 struct GreyImage {
   int width = 0;
   int height = 0;

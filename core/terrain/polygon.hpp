@@ -1,4 +1,4 @@
-/// Closed figures on the map, such as the ground that nobody may enter.
+// Polygons are closed figures on the map, such as the ground that nobody may enter.
 #pragma once
 
 #include <vector>
@@ -7,8 +7,8 @@
 
 namespace roci::terrain {
 
-/// Is a closed outline through at least three corners, in metres; the last corner is joined to the first. Where
-/// it crosses itself, a point is inside by the even-odd rule.
+/// Holds a closed outline through at least three corners, in metres; the last corner is joined to the first.
+/// Where it crosses itself, a point is inside by the even-odd rule.
 struct Polygon {
   std::vector<Point> corners;
   bool operator==(const Polygon&) const = default;

@@ -1,4 +1,4 @@
-// A polygon as mission and map files write it.
+// This file reads a polygon as mission and map files write it.
 #pragma once
 #include "core/mission/entry.hpp"
 #include "core/terrain/polygon.hpp"

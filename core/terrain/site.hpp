@@ -1,4 +1,4 @@
-/// The terrain of a mission: elevation, rocks and occupancy on one grid.
+// A site is the terrain of a mission: elevation, rocks and occupancy on one grid.
 #pragma once
 
 #include <cstdint>
@@ -9,6 +9,7 @@
 
 namespace roci::terrain {
 
+/// Says whether a cell of the map is free, as a map_server reader takes it.
 enum class Occupancy : std::uint8_t { free, unknown, occupied };
 
 /// Holds the rise per metre towards east and north.
@@ -19,10 +20,10 @@ struct Gradient {
 
 /// Holds the layers of a site, each with grid.cell_count() values by rows from the south.
 struct SiteLayers {
-  std::vector<float> elevation;      ///< Is in metres, at the centre of the cell.
-  std::vector<float> rock_height;    ///< Is that of the tallest rock in the cell, m, or 0.
-  std::vector<Occupancy> occupancy;  ///< Says what a map_server reader makes of the cell.
-  std::vector<Polygon> keep_out{};   ///< Holds the ground that nobody may enter; it may reach beyond the map.
+  std::vector<float> elevation;      ///< metres, at the centre of the cell
+  std::vector<float> rock_height;    ///< height of the tallest rock in the cell, m, or 0
+  std::vector<Occupancy> occupancy;  ///< what a map_server reader makes of the cell
+  std::vector<Polygon> keep_out{};   ///< ground that nobody may enter; it may reach beyond the map
 };
 
 /// Holds the terrain of a mission as values: it is immutable once built, and safe to read from several

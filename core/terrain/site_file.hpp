@@ -1,4 +1,4 @@
-// A site from its files: map_server YAML with images, or a GeoTIFF.
+// This file reads a site from its files: map_server YAML with images, or a GeoTIFF.
 #pragma once
 #include <filesystem>
 

@@ -1,4 +1,4 @@
-/// Sites made from a seed: hills, craters and rocks.
+// This file makes sites from a seed: hills, craters and rocks.
 #pragma once
 
 #include <cstdint>
@@ -9,15 +9,15 @@
 
 namespace roci::terrain {
 
-/// Is one octave of the hills. All lengths of this file are in millimetres, and positions count from the
-/// south-west corner of the site.
+/// Describes one octave of the hills. All lengths of this file are in millimetres, and positions count from
+/// the south-west corner of the site.
 struct Octave {
   std::int64_t wavelength;
   std::int64_t amplitude;
 };
 
-/// Is a bowl (parabola) of `depth` below the surroundings with a raised rim of a tenth of it; its walls rise
-/// by 4 * depth / diameter at the rim.
+/// Describes a bowl (parabola) of `depth` below the surroundings with a raised rim of a tenth of it; its
+/// walls rise by 4 * depth / diameter at the rim.
 struct Crater {
   std::int64_t x;
   std::int64_t y;
@@ -25,7 +25,7 @@ struct Crater {
   std::int64_t depth;
 };
 
-/// Is a closed ring of rocks of one height.
+/// Describes a closed ring of rocks of one height.
 struct RockRing {
   std::int64_t x;
   std::int64_t y;
@@ -33,7 +33,7 @@ struct RockRing {
   std::int64_t rock_height;
 };
 
-/// Is a disc that is kept free of the scattered rocks.
+/// Describes a disc that is kept free of the scattered rocks.
 struct Clearing {
   std::int64_t x;
   std::int64_t y;
@@ -53,10 +53,10 @@ struct SiteRecipe {
   std::vector<Crater> craters = {{190000, 60000, 36000, 9000}};
   std::vector<RockRing> rings = {{50000, 180000, 8000, 700}};
   std::vector<Clearing> clearings = {{40000, 40000, 6000}};
-  /// Is the share of the ground that rocks cover, the k of Golombek and Rapp, "Size-frequency distributions
-  /// of rocks on Mars and Earth analog sites", J. Geophys. Res. 102 (1997): rocks of diameter D [m] or more
-  /// cover k exp(-q D) with q = 1.79 + 0.152 / k. Diameters of 0.2 … 2 m are drawn; a rock stands half its
-  /// diameter high.
+  /// Gives the share of the ground that rocks cover, the k of Golombek and Rapp, "Size-frequency
+  /// distributions of rocks on Mars and Earth analog sites", J. Geophys. Res. 102 (1997): rocks of diameter D
+  /// [m] or more cover k exp(-q D) with q = 1.79 + 0.152 / k. Diameters of 0.2 … 2 m are drawn; a rock stands
+  /// half its diameter high.
   double rock_abundance = 0.05;
 };
 

@@ -1,4 +1,4 @@
-/// Ways over the map, and the text in which commands carry them.
+// This file has ways over the map, and the text in which commands carry them.
 #pragma once
 
 #include <cstddef>
@@ -10,13 +10,13 @@
 
 namespace roci::terrain {
 
-/// Is driven over point by point, from the first to the last.
+/// Lists the points of a way, driven from the first to the last.
 using Way = std::vector<Point>;
 
 /// Returns "x,y;x,y;…" in metres of the map frame, each number as short as it reads back the same.
 std::string to_text(const Way& way);
 
-/// Is what a text says, or why it is no way: `fault` is empty or names the point, counted from 1.
+/// Holds the way that a text says, or why it says none: `fault` is empty or names the point, counted from 1.
 struct WayInText {
   Way way;
   std::string fault;

@@ -1,4 +1,4 @@
-// Finds the known word that somebody may have meant with an unknown one.
+// This file finds the known word that somebody may have meant with an unknown one.
 #pragma once
 
 #include <cstddef>
@@ -8,10 +8,10 @@
 
 namespace roci::words {
 
-/// Is offered the known words one by one and keeps the nearest, by the optimal string alignment distance (Damerau's
-/// edits: a character too many, missing, wrong, or two exchanged). A word counts as near with one edit for each three
-/// characters of the longer one, at least one, but not if all its characters are edited; of equally near ones the first
-/// counts. Words of over 200 characters are not compared.
+/// Keeps the nearest of the known words that it is offered one by one, by the optimal string alignment distance
+/// (Damerau's edits: a character too many, missing, wrong, or two exchanged). A word counts as near with one edit for
+/// each three characters of the longer one, at least one, but not if all its characters are edited; of equally near
+/// ones the first counts. Words of over 200 characters are not compared.
 class NearestWord {
  public:
   explicit NearestWord(std::string_view word);

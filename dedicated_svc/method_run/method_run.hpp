@@ -1,5 +1,5 @@
-// One command under way (R145, R146): which call comes next, what its answer means, when it is over. Pure: answers of
-// calls go in, what to call comes out.
+// A method run is one command under way (R145, R146): it says which call comes next, what its answer means, and when
+// the command is over. It is pure: answers of calls go in, what to call comes out.
 #pragma once
 
 #include <cstdint>
@@ -16,14 +16,14 @@ namespace roci::dedicated::method_run {
 /// What was observed last, by timeline.
 using Observations = std::map<std::string, temporal::Value>;
 
-/// Is a call with all names filled in.
+/// Holds a call with all names filled in.
 struct Ask {
   /// Counts the calls of this run from 1, so that the same answers give the same numbers.
   std::uint32_t number = 0;
   methods::Call call;
 };
 
-/// Is how a call went.
+/// Says how a call went.
 struct Answer {
   std::string error{};   ///< a stable code; empty: it went well
   std::string reason{};  ///< in words
@@ -31,13 +31,13 @@ struct Answer {
   std::optional<double> energy_j{};
 };
 
-/// Is what decided a step of a run: with the same ones in the same order a run comes to the same call.
+/// Holds what decided a step of a run: with the same ones in the same order a run comes to the same call.
 struct Taken {
   Answer answer;
   Observations observed;  ///< all that the method asks for
 };
 
-/// Is how the command ended.
+/// Says how the command ended.
 struct End {
   std::string error{};  ///< empty: it is carried out. The failed call's, or wrong-value (R145)
   std::string reason{};

@@ -1,4 +1,4 @@
-// Templates of methods: what they name, and what they become.
+// This file fills templates of methods, and says what they name.
 #pragma once
 
 #include <functional>

@@ -1,5 +1,5 @@
-// The methods of a dedicated executive (R145, R146): which calls to its subsystems carry out one command, what their
-// answers must look like, and what is tried where one fails in a way that is known.
+// The methods of a dedicated executive (R145, R146) say which calls to its subsystems carry out one command, what
+// their answers must look like, and what is tried where one fails in a known way.
 #pragma once
 
 #include <cstdint>
@@ -14,8 +14,8 @@
 
 namespace roci::dedicated::methods {
 
-/// Is text in which "{name}" stands for an argument of the command, and "{call.value}" for a value that a call of
-/// this run has brought.
+/// Holds text in which "{name}" stands for an argument of the command, and "{call.value}" for a value that a call
+/// of this run has brought.
 using Template = std::string;
 
 /// Names a place: an object of the mission with properties x and y, a robot (where it is observed to stand), or
@@ -83,7 +83,7 @@ struct Range {
   bool admits(double value) const { return value >= least && value <= most; }
 };
 
-/// Is one low-level operation, awaited before the next one begins.
+/// Describes one low-level operation, awaited before the next one begins.
 struct Call {
   std::string name;  ///< unique in its method and that method's repairs
   std::variant<CommandCall, PathCall, TransformCall, ObserveCall, WaitCall> what;
@@ -91,13 +91,14 @@ struct Call {
   std::map<std::string, Range> check{};  ///< numbers that it must bring; else error `wrong-value`
 };
 
-/// Is a state of the executive's own timeline; its name is empty where there is none.
+/// Names a state of the executive's own timeline; its name is empty where there is none.
 struct Shown {
   std::string name{};
   std::vector<Template> arguments{};
 };
 
-/// Is done, within the command's own time, where a call has failed with a certain error (R146).
+/// Describes what is done, within the command's own time, where a call has failed with a certain error
+/// (R146).
 struct Repair {
   std::vector<Call> calls{};
   std::string then{};         ///< the method's call with which it goes on; empty: the one that failed
@@ -125,7 +126,7 @@ struct Method {
   std::map<std::string, std::map<Template, Shown>> tells{};
 };
 
-/// Is all that one dedicated executive can do, on the one timeline that it shows.
+/// Describes all that one dedicated executive can do, on the one timeline that it shows.
 struct Methods {
   std::string timeline;
   std::string subsystem;  ///< of the commands that it takes

@@ -1,4 +1,4 @@
-// Reads the methods of a dedicated executive from the section `dedicated` of its mission file.
+// This file reads the methods of a dedicated executive from the section `dedicated` of its mission file.
 #pragma once
 
 #include "core/mission/entry.hpp"

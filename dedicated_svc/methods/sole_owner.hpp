@@ -1,4 +1,5 @@
-// A timeline has one owner: what a dedicated executive may not show, because the mission gives it to another service.
+// A timeline has one owner; this file says what a dedicated executive may not show, because the mission gives it to
+// another service.
 #pragma once
 
 #include <filesystem>

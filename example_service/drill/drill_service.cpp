@@ -92,11 +92,11 @@ class Drill final : public services::Service, private owner::Driver {
     report("drill.hole." + place_, "bored");
     rest({owner::Stage::completed, "done", "", {.energy_j = 1200}});
   }
-  void break_off(const owner::CommandKey&, const owner::Word& why) override {
+  void break_off(const owner::CommandKey&, const owner::CommandStatus& why) override {
     node_.cancel(timer_);
     rest(why);
   }
-  void rest(const owner::Word& last) {
+  void rest(const owner::CommandStatus& last) {
     report("drill", "idle");
     commands_.say(*std::exchange(running_, std::nullopt), last);
   }

@@ -19,7 +19,7 @@
 
 namespace roci::exec::archive {
 
-/// Is thrown for bytes that are not what a Writer wrote.
+/// Reports bytes that no Writer wrote.
 class ArchiveError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -199,7 +199,7 @@ class Reader {
   std::string_view rest_;
 };
 
-/// Is the second parameter of fields(archive, value): it is const where the archive writes.
+/// Names the type of the second parameter of fields(archive, value): const where the archive writes.
 template <class T, class Archive>
 using Of = std::conditional_t<Archive::writes, const T, T>;
 

@@ -19,8 +19,8 @@ using mission::words_of;
 
 namespace {
 
-// The model of the state that `value` is in, and that state's arguments; null for a value that is no known
-// state.
+// Holds the model of the state that a value is in, and that state's arguments; null for a value that is no
+// known state.
 struct Seen {
   const StateModel* model = nullptr;
   std::vector<std::string> arguments;

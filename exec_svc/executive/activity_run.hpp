@@ -28,14 +28,14 @@ struct ActivityRun {
   ActivityPhase phase = ActivityPhase::waiting;
   temporal::ActivityState state = temporal::ActivityState::waiting;
   std::uint32_t attempt = 0;  ///< part of the command's key: each command sent anew counts, none is reset
-  std::size_t command = 0;    ///< is the place in the activity's sequence of the one under way
-  std::uint64_t epoch = 0;    ///< is the executive's when it issued this attempt: it is part of the key, too
+  std::size_t command = 0;    ///< index, in the activity's sequence, of the command under way
+  std::uint64_t epoch = 0;    ///< executive's epoch when it issued this attempt: part of the key, too
   std::uint32_t issued = 0;   ///< the newest attempt that was sent
   std::uint32_t retries_used = 0;
   std::optional<temporal::Time> started, ended;
   temporal::Time attempt_started{0};
   temporal::Time phase_since{0};
-  temporal::Time latest_end = temporal::no_bound;  ///< its owner is told: after it no repair is worth a try
+  temporal::Time latest_end = temporal::no_bound;  ///< told to its owner: no repair is worth trying after it
   std::optional<temporal::Time> wait_until;        ///< its wait has begun and ends then
   bool maintenance_held = false;  ///< seen true since the start: from then on it must stay true
   bool overrun_noted = false;     ///< its longest duration has passed and no longer bounds its end

@@ -71,14 +71,14 @@ void Attempts::fail(Index activity, Time now, Breakage breakage, const std::stri
   }
 }
 
-/// A deadline that has passed is the network's, and so everybody's.
+/// A passed deadline concerns the whole network, so it never fails alone.
 bool Attempts::fails_alone(Index activity, Breakage breakage) const {
   return state_->starting() &&
          state_->plan.activities[activity].failure == temporal::FailureScope::of_activity &&
          (breakage == Breakage::activity_failed || breakage == Breakage::refused_for_good);
 }
 
-/// Its neighbours keep their order, as with an activity that is skipped.
+/// Closes the activity; its neighbours keep their order, as with one that is skipped.
 void Attempts::close_alone(Index activity, Time now, const std::string& reason) {
   const PlanActivity& planned = state_->plan.activities[activity];
   if (!state_->runs[activity].started) state_->points.drop(planned.start_point);

@@ -31,8 +31,8 @@ class Attempts {
   void cancel(Index activity, temporal::Time now, AfterCancel after, const std::string& reason);
   /// Goes on after its contingency: the activity comes again, or the plan is broken.
   void resume_after(const ContingencyEnd& end, temporal::Time now);
-  /// Looks at the ends since the last call. Ends come as they come; two that came in the wrong order cannot
-  /// be mended by waiting: the plan is broken.
+  /// Checks the order of the ends observed since the last call. If two came in an order that the plan
+  /// forbids, waiting cannot repair that, and the plan is broken.
   void check_order_of_ends();
 
  private:

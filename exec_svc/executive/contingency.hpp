@@ -11,7 +11,7 @@
 
 namespace roci::exec::executive {
 
-/// Is one command of a contingency's template.
+/// Describes one command of a contingency's template.
 struct ContingencyCommand {
   std::string owner;
   std::string subsystem;
@@ -20,7 +20,7 @@ struct ContingencyCommand {
   std::string robot{};                        ///< whose subsystem; empty: the owner's only one
 };
 
-/// Is a task that nobody requested; a failure makes an instance of it.
+/// Describes a task that nobody requests: a failure makes an instance of it.
 struct Contingency {
   std::string name;
   std::vector<ContingencyCommand> commands;  ///< one after the other

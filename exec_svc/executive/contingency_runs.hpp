@@ -15,7 +15,7 @@ namespace roci::exec::executive {
 /// Says that a contingency has come to its end.
 struct ContingencyEnd {
   Index activity = 0;
-  std::string failure;  ///< is the activity's, for which it was begun
+  std::string failure;  ///< failure of the activity for which it was begun
   std::string reason;   ///< says why it did not help; empty: all of its commands are done
 };
 
@@ -54,12 +54,12 @@ class ContingencyRuns {
  private:
   struct Record {
     std::size_t command = 0;  ///< index of the one that runs; as many as there are: all are done
-    std::string command_id;   ///< is that of the one that was sent
-    std::uint64_t epoch = 0;  ///< is the executive's when it was issued
+    std::string command_id;   ///< id of the command that was sent last
+    std::uint64_t epoch = 0;  ///< executive's epoch when it was issued
     temporal::Time since{0};  ///< says when the contingency began
     temporal::Time command_since{0};
     bool accepted = false;
-    std::string failure;         ///< is the activity's
+    std::string failure;         ///< failure of the activity
     std::uint32_t used = 0;      ///< contingencies begun
     std::uint32_t commands = 0;  ///< part of their keys: it is never reset
     std::uint32_t queries = 0;   ///< how often its owner was asked because no answer came over a link

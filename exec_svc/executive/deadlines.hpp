@@ -20,18 +20,18 @@ class Deadlines {
   /// Returns whether an attempt that begins now may end in time: under LatenessPolicy::deadline one of the
   /// shortest duration, since no repair moves the times of the plan (R129); under the others always.
   bool leaves_room(Index activity, temporal::Time now) const;
-  /// Returns by when a command must have ended to be of use: a microsecond before its deadline, so that its owner's
-  /// word on a repair that took too long comes in time for the activity's contingency, or when it counts as hung. Its
-  /// owner is told, and repairs no longer than that (R146).
+  /// Returns by when a command must have ended to be of use: when it counts as hung, or a microsecond before its
+  /// deadline, so that an owner's report of a repair that took too long still leaves time for the activity's
+  /// contingency. Its owner is told, and repairs no longer than that (R146).
   temporal::Time latest_end(Index activity) const;
   /// Returns when a command counts as hung. An activity without a longest duration is followed as long as its
   /// owner lives.
   temporal::Time hung_after(Index activity) const;
   /// Returns from when on a completed command counts as a success, if its post condition holds (R86).
   temporal::Time settled_from(Index activity) const;
-  /// How long observations may take to follow a start or an end of it.
+  /// Returns how long observations may take to follow a start or an end of the activity.
   temporal::Duration settle_time(Index activity) const;
-  /// When the activity, which runs no contingency, is to be looked at next.
+  /// Returns when the activity, which runs no contingency, is to be looked at next.
   temporal::Time next_timer(Index activity, temporal::Time now) const;
 
  private:

@@ -29,7 +29,7 @@ std::vector<std::string> names_of(const std::vector<DecisionChoice>& choices) {
   return out;
 }
 
-/// The same question, wherever its time point stands in the network.
+/// Returns whether both are the same question, wherever its time point stands in the network.
 bool same_question(DecisionPoint a, const DecisionPoint& b) {
   a.decide_before = b.decide_before;
   return a == b;
@@ -80,7 +80,7 @@ AnswerResult DecisionPoints::take_answer(const DecisionAnswer& answer, Time now)
   return result;
 }
 
-/// `taken`: nothing is wrong with the answer.
+/// Returns `taken` if nothing is wrong with the answer.
 AnswerResult DecisionPoints::fault_of(std::size_t index, const DecisionAnswer& answer, Time now) const {
   const DecisionPoint& decision = state_->plan.decisions[index];
   const Record& record = records_[index];
@@ -164,7 +164,7 @@ bool DecisionPoints::ask(Time now) {
   return progress;
 }
 
-/// The first choice whose condition holds now; a choice without one always does.
+/// Takes the first choice whose condition holds now; a choice without one always holds.
 bool DecisionPoints::resolve_by_rule(std::size_t index, Time now) {
   const DecisionPoint& decision = state_->plan.decisions[index];
   if (decision.resolver_kind != ResolverKind::rule || now > answer_before(index)) return false;

@@ -1,5 +1,4 @@
-/// The open choices of sufficient plans (R131): asked for when the information may exist, bound by the answer
-/// of their resolver or by the first choice whose rule holds.
+// Decision points are the open choices of sufficient plans (R131).
 #pragma once
 
 #include <optional>
@@ -12,26 +11,28 @@
 
 namespace roci::exec::executive {
 
+/// Asks for each decision when the information for it may exist, and binds it by the answer of its resolver
+/// or by the first choice whose rule holds (R131).
 class DecisionPoints {
  public:
-  /// Holds the starts of all activities among which is to be chosen, or whose arguments are to be bound. Both
-  /// outlive this.
+  /// Holds the starts of all activities that a decision chooses among or whose arguments it binds. Both
+  /// arguments must outlive this object.
   DecisionPoints(RunState& state, StartWaits& waits);
 
-  /// Takes an answer: the activities of the other choices are skipped, or the value becomes an argument of
+  /// Takes an answer in: the activities of the other choices are skipped, or the value becomes an argument of
   /// the commands. An answer that is not taken changes nothing.
   AnswerResult take_answer(const DecisionAnswer& answer, temporal::Time now);
-  /// Asks as soon as every predecessor of some activity of the decision has happened; a rule is looked at
-  /// from then on, until a choice holds. An answer that is missing at its time breaks the plan. True:
-  /// something happened, and another look is due.
+  /// Asks as soon as every predecessor of some activity of the decision has happened; a rule is evaluated
+  /// from then on, until a choice holds. An answer that is missing at its deadline breaks the plan. Returns
+  /// whether something happened, so that another look is due.
   bool ask(temporal::Time now);
-  /// Once nothing new may start, what is still open is told as missed or void.
+  /// Reports what is still open as missed or void, once nothing new may start.
   void close();
-  /// When, after now, an answer that was asked for will be missing; no bound: never.
+  /// Returns when, after now, the next answer that was asked for will be missing, or no_bound.
   temporal::Time next_timer(temporal::Time now) const;
 
-  /// Takes over from the run before: what was answered stays answered and is not asked for again, what is
-  /// open stays open if this plan has the same decision, else it is void.
+  /// Takes over from the run before: an answered decision stays answered and is not asked for again; an open
+  /// one stays open if this plan has the same decision, and else becomes void.
   void inherit(const DecisionPoints& before, temporal::Time now);
 
  private:

@@ -23,25 +23,26 @@ enum class StartPolicy { earliest, latest };
 struct ExecutiveSettings {
   temporal::Duration ack_timeout = temporal::seconds(5);  ///< command sent -> accepted, rejected or completed
   temporal::Duration cancel_timeout = temporal::seconds(5);  ///< cancel sent -> any answer
-  /// Observations have so long to follow a start or an end.
+  /// Bounds how long observations may take to follow a start or an end.
   temporal::Duration settle_time = temporal::seconds(2);
   /// Bounds the wait for pre conditions, where nothing else bounds it.
   temporal::Duration default_wait = temporal::seconds(3600);
-  /// It counts where decide_before has no latest time.
+  /// Bounds the wait for an answer where decide_before has no latest time.
   temporal::Duration decision_timeout = temporal::seconds(600);
   double overrun_factor = 3.0;  ///< a command fails as hung after this many times its longest duration ...
   temporal::Duration overrun_grace = temporal::seconds(600);  ///< ... plus this
   StartPolicy start = StartPolicy::earliest;
   /// Says whether what is not committed waits for a version of the plan that commits it (R78).
   bool only_committed = false;
-  /// They go by the names that PlanActivity::contingency gives them.
+  /// Maps the names that PlanActivity::contingency uses to contingencies.
   std::map<std::string, Contingency> contingencies{};
   /// Bounds retries from the first start on, by PlanActivity::name; a name that is not here has no bound.
   std::map<std::string, temporal::Duration> retry_within{};
-  /// The owners that a link of the scenario joins to the executive, with the light time there and back. What
-  /// they say comes later by that, and what they are told may be lost.
+  /// Gives the light time there and back for each owner that the executive reaches over a link of the
+  /// scenario. Messages over such a link may be lost.
   std::map<std::string, temporal::Duration> round_trips{};
-  /// So often such an owner is asked what became of a command before it counts as not answered.
+  /// Bounds how often such an owner is asked what became of a command before the command counts as
+  /// unanswered.
   std::uint32_t queries = 5;
 
   bool linked(const std::string& owner) const { return round_trips.contains(owner); }
@@ -65,16 +66,16 @@ class Executive {
   /// in the new plan under the same id go on; others that run are cancelled. Observed values are kept.
   /// Returns check(plan); if that is not empty, nothing has changed.
   std::vector<std::string> load(temporal::FlexiblePlan plan, temporal::Time now);
-  /// The same for a plan that was stopped and goes on (R149): activities without a command that had begun go
-  /// on from where they began, so that what they contain can be done in them.
+  /// Does as load() for a plan that was stopped and goes on (R149): activities without a command that had
+  /// begun go on from their start, so that the activities within them can still be done.
   std::vector<std::string> load_again(temporal::FlexiblePlan plan, temporal::Time now);
 
   /// Advances to `now` (never before the time of the call before). It also does so without a plan, as
   /// observations are kept.
   Outputs step(temporal::Time now, const Inputs& inputs);
 
-  /// After a restart, with the state of before: asks the owners of everything that runs what became of it.
-  /// What an owner never heard of is sent again under its key; a cancel that it never heard of too.
+  /// Goes on after a restart, with the state from before it: asks the owners of everything that runs what
+  /// became of it. A command or cancel that an owner never received is sent again under its key.
   Outputs resume(temporal::Time now);
 
   /// Begins the first phase of the cancel: asks the owners of everything that runs; step() takes their
@@ -85,16 +86,17 @@ class Executive {
   /// pass. load() ends it.
   void hold_starts(bool hold);
 
-  /// What the ground lets the executive do from now on, whatever plan is loaded.
+  /// Sets what the ground lets the executive do from now on, whatever plan is loaded.
   void permit(Permissions permissions);
-  /// Leaves out an activity that has not begun; its neighbours keep their order. False: there is none.
+  /// Leaves out an activity that has not begun; its neighbours keep their order. Returns false if there is
+  /// none.
   bool drop(const std::string& activity, const std::string& reason);
-  /// The contingency of that name from now on; it must not be under way.
+  /// Replaces the contingency of that name from now on; it must not be under way.
   void set_contingency(Contingency contingency);
-  /// Whether some activity runs the contingency of that name.
+  /// Returns whether some activity runs the contingency of that name.
   bool contingency_under_way(const std::string& name) const;
 
-  /// Activities that were started and have not ended, in plan order.
+  /// Returns the activities that were started and have not ended, in plan order.
   std::vector<StepStatus> running() const;
 
   Outcome outcome() const;
@@ -123,7 +125,7 @@ class Executive {
   /// Returns the value that conditions see: as observed, else as internal activities left it.
   std::optional<temporal::Value> value_of(const std::string& timeline) const;
 
-  /// These count acks and decision answers that matched nothing that is awaited.
+  /// Return the number of acknowledgements and of decision answers that matched nothing awaited.
   std::uint64_t ignored_acks() const;
   std::uint64_t ignored_answers() const;
 

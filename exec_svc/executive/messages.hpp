@@ -13,21 +13,24 @@
 
 namespace roci::exec::executive {
 
-/// Activities of fall-backs begin so; owners take a fall-back also where they hold another epoch or none
-/// (services/owner/command.hpp).
+/// Begins the activity name of every fall-back; owners accept a fall-back even where they hold another epoch
+/// or none (services/owner/command.hpp).
 inline constexpr char kFallbackPrefix[] = "fallback.";
 
+/// Says what a command asks its owner to do with a key.
 enum class CommandAction { execute, cancel, query };
 
+/// Says what an owner reports of a command.
 enum class CommandStage { accepted, rejected, completed, failed, cancelled, cancel_failed, unknown };
 
-/// Is one timeline's newest value.
+/// Holds one timeline's newest value.
 struct Observation {
   std::string timeline;
   temporal::Value value;
 };
 
-/// Is what a command took and brought, as its owner said with its end.
+/// Holds what a command took and brought, as its owner said with its end; absent where it said nothing.
+/// Energies are in joules.
 struct CommandResults {
   std::optional<temporal::Duration> duration{};
   std::optional<double> energy_j{};
@@ -35,20 +38,20 @@ struct CommandResults {
   friend bool operator==(const CommandResults&, const CommandResults&) = default;
 };
 
-/// Is an owner's answer to the command (activity, attempt).
+/// Holds an owner's answer to the command (activity, attempt).
 struct CommandAck {
   std::string activity;
   std::uint32_t attempt = 0;
   CommandStage stage = CommandStage::accepted;
   std::string code;
   std::string reason;
-  std::uint64_t epoch = 0;  ///< is the one in which the command was issued; 0: not told, any fits
-  /// Says that nothing was taken, as the owner knows a later epoch; the executive's is later still by now.
+  std::uint64_t epoch = 0;  ///< epoch in which the command was issued; 0: not told, any fits
+  /// Says that the owner took nothing, as it knows a later epoch; the executive's is later still by now.
   bool refused_epoch = false;
   CommandResults results{};
 };
 
-/// An answer to an open decision of the plan.
+/// Holds an answer to an open decision of the plan.
 struct DecisionAnswer {
   std::string decision;
   std::string choice;    ///< one of the decision's choices; or
@@ -56,7 +59,7 @@ struct DecisionAnswer {
   std::string issuer{};  ///< who gave it
 };
 
-/// What became of an answer, in the order of AnswerOutcome in idl/order.idl.
+/// Says what became of an answer, in the order of AnswerOutcome in idl/order.idl.
 enum class AnswerOutcome {
   taken,
   late,              ///< its time has passed, or the plan no longer asks
@@ -66,6 +69,7 @@ enum class AnswerOutcome {
   not_entitled,      ///< somebody else is asked
 };
 
+/// Says what became of an answer, and why.
 struct AnswerResult {
   AnswerOutcome outcome = AnswerOutcome::taken;
   std::string reason{};  ///< in plain words; empty: it was taken
@@ -74,16 +78,16 @@ struct AnswerResult {
 /// Holds what happened since the last step. Each list is in the order of events.
 struct Inputs {
   std::vector<Observation> observations{};
-  /// Values that the ground has set: what activities make of them later counts.
+  /// Lists values that the ground has set; impacts of activities may change them later.
   std::vector<Observation> settings{};
   std::vector<CommandAck> acks{};
   std::vector<std::string> lost_owners{};   ///< services found dead, hung or cut off
   std::vector<std::string> found_owners{};  ///< services that came (back)
   std::vector<DecisionAnswer> answers{};
-  std::uint64_t epoch = 0;  ///< is the executive's from this step on; 0: as before
+  std::uint64_t epoch = 0;  ///< executive's epoch from this step on; 0: as before
 };
 
-/// Is what the executive asks of an owner.
+/// Holds what the executive asks of an owner.
 struct Command {
   CommandAction action = CommandAction::execute;
   std::string activity;
@@ -92,13 +96,13 @@ struct Command {
   std::string subsystem;
   std::string command_name;
   std::vector<temporal::Property> arguments;
-  temporal::Duration expected{0};                  ///< shortest duration of the activity
-  std::uint64_t epoch = 0;                         ///< in which the key was issued; 0: the commander's own
-  temporal::Time latest_end = temporal::no_bound;  ///< is when its step must have ended
-  std::string robot{};                             ///< has the subsystem; empty: the owner's only one
+  temporal::Duration expected{0};  ///< shortest duration of the activity
+  std::uint64_t epoch = 0;         ///< epoch in which the key was issued; 0: the commander's own
+  temporal::Time latest_end = temporal::no_bound;  ///< time by which its step must have ended
+  std::string robot{};  ///< robot that has the subsystem; empty: the owner's only one
 };
 
-/// Is the state of one activity; times are mission times.
+/// Holds the state of one activity; times are mission times.
 struct StepStatus {
   std::string activity;
   std::string name;
@@ -111,7 +115,7 @@ struct StepStatus {
   std::string reason;  ///< says why it is in this state, where that is not obvious
 };
 
-/// How far a decision that was asked for has come, in the order of DecisionState in idl/order.idl.
+/// Says how far a decision that was asked for has come, in the order of DecisionState in idl/order.idl.
 enum class DecisionState {
   open,
   answered,
@@ -119,7 +123,7 @@ enum class DecisionState {
   void_,   ///< the plan ended, or another one took its place, before it was answered
 };
 
-/// A decision that was asked for. It is told when it is asked for and when its state changes.
+/// Holds a decision that was asked for. It is reported when it is asked for and when its state changes.
 struct DecisionStatus {
   std::string decision;
   /// Says who is asked: a service, an engine, an issuer; "rule": the choices' own conditions.
@@ -175,9 +179,9 @@ enum class Breakage {
 struct Outcome {
   OutcomeKind kind = OutcomeKind::idle;
   Breakage breakage = Breakage::none;  ///< says how a broken plan broke
-  std::string activity;                ///< that broke it; for decision_missing the decision
-  std::string reason;                  ///< is in plain words
-  std::string contingency;  ///< the one that the activity names; it has been used up, or is none of ours
+  std::string activity;                ///< the one that broke it; for decision_missing the decision
+  std::string reason;                  ///< in plain words
+  std::string contingency;             ///< named by the activity; used up, or not known here
 };
 
 /// Holds what one step says and asks for.
@@ -187,7 +191,7 @@ struct Outputs {
   std::vector<DecisionStatus> decisions{};  ///< every change of state, in the order of events
   std::vector<AnswerResult> answers{};      ///< of the step's answers, in their order
   std::vector<RecoveryStep> recoveries{};
-  Outcome outcome{};                          ///< holds after this step
+  Outcome outcome{};                          ///< as it stands after this step
   std::optional<temporal::Time> next_wake{};  ///< step again then, if nothing happens before
 };
 

@@ -10,7 +10,7 @@ using temporal::Time;
 
 namespace {
 
-// So often a command is said again in a later epoch before it counts as rejected.
+// Bounds how often a command is sent again in a later epoch before it counts as rejected.
 constexpr std::uint32_t kRefusals = 8;
 
 std::string with_reason(const std::string& what, const CommandAck& ack) {
@@ -43,8 +43,8 @@ bool OwnerExchange::take_ack(const CommandAck& ack, Time now) {
   return take_progress(activity, ack, now);
 }
 
-/// What was to begin gets a key of the epoch that has begun since; a question and a cancel keep the key of what
-/// they are about.
+/// Sends again what was refused: a command gets a key of the epoch that has begun since; a query and a cancel
+/// keep the key of their command.
 bool OwnerExchange::say_again(Index activity, Time now) {
   ActivityRun& run = state_->runs[activity];
   ++run.refusals;

@@ -27,10 +27,11 @@ class OwnerExchange {
   void give_cancel_up(Index activity, temporal::Time now, const std::string& answer);
   /// Ends everything: asks owners to stop, closes what no owner works on.
   void withdraw_all(temporal::Time now);
-  /// Asks an owner behind a link, which has not answered in time, what became of its command: the command,
-  /// the cancel or the answer may be lost. False: it was asked often enough, or there is no link.
+  /// Asks an owner behind a link that has not answered in time what became of its command: the command, the
+  /// cancel or the answer may be lost. Returns false if it was asked often enough, or there is no link.
   bool ask_again(Index activity, temporal::Time now);
-  /// Asks, after a restart, what became of all that runs; if an owner is named, that one alone, after its own.
+  /// Asks what became of all that runs: every owner after a restart of the executive, or the named one alone
+  /// after its own restart.
   void query_all(temporal::Time now, const std::string& owner = "");
 
  private:

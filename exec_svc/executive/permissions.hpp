@@ -1,4 +1,4 @@
-/// What the ground lets the executive do by itself; without orders everything.
+// Permissions bound what the executive does by itself.
 #pragma once
 
 #include <set>
@@ -6,6 +6,7 @@
 
 namespace roci::exec::executive {
 
+/// Holds what the ground lets the executive do by itself; without orders that is everything.
 struct Permissions {
   bool held = false;                        ///< no activity starts
   bool each_approved = false;               ///< of commands, only what is approved starts
@@ -13,7 +14,8 @@ struct Permissions {
   std::set<std::string> held_activities{};  ///< these do not start
   std::set<std::string> approved{};
 
-  /// Why the activity may not start, in plain words; empty: it may. Its latest start passes all the same.
+  /// Returns in plain words why the activity may not start, or an empty text if it may. Its latest start
+  /// passes all the same.
   std::string refusal(const std::string& activity, bool commands) const {
     if (held || held_activities.contains(activity)) return "held by the ground";
     if (each_approved && commands && !approved.contains(activity)) return "waits for the ground's approval";

@@ -14,7 +14,7 @@ PlanRun::PlanRun(temporal::FlexiblePlan plan, const ExecutiveSettings& settings,
                  const Permissions& permissions, TimelineStore& store, std::uint64_t epoch)
     : state_(std::move(plan), settings, permissions, store, epoch) {}
 
-// An activity without a command, which had begun at `started` when the plan was stopped.
+// Lets an activity without a command go on that had begun at `started` when the plan was stopped.
 void PlanRun::go_on(Index activity, Time started, Time now) {
   ActivityRun& run = state_.runs[activity];
   run.started = run.attempt_started = started;
@@ -62,7 +62,7 @@ void PlanRun::adopt(PlanRun& before, Time now, AfterStop stopped) {
   state_.outputs.commands = std::move(before.state_.outputs.commands);
 }
 
-/// Contingencies do not go on under another plan.
+/// Withdraws what the new plan lacks. Contingencies do not go on under another plan.
 void PlanRun::withdraw_what_is_gone(PlanRun& before) {
   for (const Index old : before.state_.active) {
     const PlanActivity& activity = before.state_.plan.activities[old];

@@ -19,7 +19,7 @@
 
 namespace roci::exec::executive {
 
-/// What becomes of an activity without a command that had begun when the plan before was stopped.
+/// Says what becomes of an activity without a command that had begun when the plan before was stopped.
 enum class AfterStop { starts_anew, goes_on };
 
 /// Runs one plan to its outcome; it is replaced as a whole by the run of the next plan.
@@ -41,14 +41,14 @@ class PlanRun {
     return decisions_.take_answer(answer, now);
   }
   void lose_owner(const std::string& owner, temporal::Time now) { exchange_.lose_owner(owner, now); }
-  /// Asks one that came back before it counted as lost what became of all that it runs.
+  /// Asks an owner that came back before it counted as lost what became of all that it runs.
   void find_owner(const std::string& owner, temporal::Time now) { exchange_.query_all(now, owner); }
   /// Acts on everything that holds at `now`, until nothing more happens.
   void advance(temporal::Time now);
   void cancel_all(temporal::Time now);
   /// Begins an epoch: keys that are issued from now on carry it, and those that were issued keep theirs.
   void begin_epoch(std::uint64_t epoch) { state_.epoch = epoch; }
-  /// False: the plan has no such activity that waits.
+  /// Leaves the activity out. Returns false if the plan has no such waiting activity.
   bool drop(const std::string& activity, const std::string& reason);
   bool contingency_under_way(const std::string& name) const;
   void hold_starts(bool hold) { dispatch_.hold_starts(hold); }

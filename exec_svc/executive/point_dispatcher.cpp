@@ -88,7 +88,7 @@ bool PointDispatcher::try_happen(TimePoint point, Time now) {
   return false;
 }
 
-/// Windows at the front stay known: only known ones are told when they move.
+/// Windows at the front stay known, since only known ones are reported when they move.
 void PointDispatcher::take_back(TimePoint point) {
   std::vector<TimePoint> unsettled;
   const auto collect = [&] {
@@ -136,7 +136,7 @@ Time PointDispatcher::next_time(Time now) {
   return next;
 }
 
-/// Points behind the front have no business yet, and cost nothing.
+/// Points behind the front need no watching yet, and cost nothing.
 bool PointDispatcher::watched(TimePoint point) const { return open(point) && points_[point].unreached == 0; }
 
 Time PointDispatcher::due_time(TimePoint point) const {
@@ -156,7 +156,7 @@ void PointDispatcher::enter_times(TimePoint point) {
     if (bounded(due)) earliest_.enter(due, point);
   }
   if (points_[point].unreached > 0) return;
-  // Ends are asked for, too: from now on their windows are known, and told when they move.
+  // Ends are asked for, too, so that from now on their windows are known and reported when they move.
   const Time upper = windows_.window(point).upper;
   const bool may_be_late = owners_[point].role != PointRole::start || points_[point].may_be_late;
   if (!may_be_late && bounded(upper)) latest_.enter(upper, point);
@@ -188,7 +188,7 @@ void PointDispatcher::begin(TimePoint point) {
   reach(point);
 }
 
-/// Lets looks for late starts go on behind what has begun and behind what cannot be late itself.
+/// Lets the search for late starts go on behind what has begun and behind what cannot be late itself.
 void PointDispatcher::reach(TimePoint point) {
   std::vector<TimePoint> reached{point};
   while (!reached.empty()) {

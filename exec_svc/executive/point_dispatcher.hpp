@@ -35,7 +35,7 @@ class PointDispatcher {
   std::optional<temporal::Time> happened_at(temporal::TimePoint point) const;
   bool dropped(temporal::TimePoint point) const { return points_[point].dropped; }
 
-  /// Makes a point wait for something that is not in the network; as often as it is held it must be released.
+  /// Makes a point wait for something outside the network; each hold() needs one release().
   void hold(temporal::TimePoint point);
   void release(temporal::TimePoint point);
   /// only_held() returns whether the predecessors have happened: only holds, if any, are in its way then.

@@ -105,7 +105,7 @@ void RunState::enter(Index activity, ActivityPhase phase, Time now) {
 void RunState::send(Index activity, CommandAction action) {
   const PlanActivity& planned = plan.activities[activity];
   ActivityRun& run = runs[activity];
-  // What is sent again, or asked for after a restart, keeps the key of its issue.
+  // A command that is sent again, or queried after a restart, keeps the key of its issue.
   if (run.issued != run.attempt) {
     run.issued = run.attempt;
     run.epoch = epoch;

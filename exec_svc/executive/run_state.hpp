@@ -18,7 +18,7 @@ namespace roci::exec::executive {
 
 using Index = std::size_t;  ///< counts activities in plan order
 
-/// Is one command of an activity's sequence; it refers to the plan. Without an owner there is none.
+/// Refers to one command of an activity's sequence in the plan; an empty owner says that there is no command.
 struct CommandOf {
   const std::string& owner;
   const std::string& robot;
@@ -29,7 +29,7 @@ struct CommandOf {
   bool last;                         ///< of the sequence
 };
 
-/// Is shared by the parts of one run, which know it by its address.
+/// Holds the state that the parts of one run share; they know it by its address.
 struct RunState {
   /// The plan has passed check(); settings, permissions and store outlive the run.
   RunState(temporal::FlexiblePlan flexible_plan, const ExecutiveSettings& executive_settings,
@@ -41,7 +41,7 @@ struct RunState {
   const ExecutiveSettings& settings;
   const Permissions& permissions;  ///< of the ground, as they are now
   TimelineStore& store;
-  std::uint64_t epoch;  ///< is the executive's: keys that it issues carry it for good
+  std::uint64_t epoch;  ///< executive's epoch: keys that it issues carry it for good
   PointDispatcher points;
   std::vector<ActivityRun> runs;
   std::unordered_map<std::string, Index> index_of;
@@ -55,15 +55,16 @@ struct RunState {
   /// Returns whether activities may start and fail; else what runs is only followed to its end.
   bool starting() const { return outcome.kind == OutcomeKind::running; }
   temporal::Lookup lookup() const;
-  /// The same as a running activity will find it that is tried again: what it has taken is given back.
+  /// Returns the lookup as a running activity will find it when it is tried again: what it has taken is given
+  /// back.
   temporal::Lookup lookup_to_retry(Index activity) const;
   StepStatus status(Index activity) const;
 
-  /// The arguments of a command of the activity, `planned`, with those that decisions have bound: in each
-  /// command that has an argument of that name, else in the first one.
+  /// Returns the arguments `planned` of a command of the activity with those that decisions have bound: in
+  /// each command that has an argument of that name, else in the first one.
   std::vector<temporal::Property> with_bound(Index activity, std::vector<temporal::Property> planned) const;
 
-  /// The activity's state as everybody sees it. Every change is told.
+  /// Changes the activity's public state, and reports every change.
   void change(Index activity, temporal::ActivityState state, std::string reason);
   /// Changes the activity's phase, which is the run's own.
   void enter(Index activity, ActivityPhase phase, temporal::Time now);

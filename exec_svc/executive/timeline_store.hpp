@@ -11,16 +11,16 @@
 
 namespace roci::exec::executive {
 
-/// External states are observed; internal states are what activities make of them (R73). A timeline is internal
-/// from the moment at which an activity without a command changes it; then those with commands change it, too.
-/// A timeline that was observed once is external for ever, and what only commands are planned to change stays
-/// unknown until it is observed: planned impacts are never taken for the world. Deltas and rates start from 0
-/// where nothing was assigned.
+/// Keeps observed (external) values apart from internal ones, which activities make (R73). A timeline becomes
+/// internal when an activity without a command changes it; from then on activities with commands change it,
+/// too. A timeline that was observed once stays external, and one that only commands are planned to change
+/// stays unknown until it is observed: planned impacts are never taken for the world. Deltas and rates start
+/// from 0 where nothing was assigned.
 class TimelineStore {
  public:
   void observe(const std::string& timeline, const temporal::Value& value);
-  /// Gives it the value, as an activity without a command does: it is internal then, unless it was observed,
-  /// and later impacts count.
+  /// Sets the value as an activity without a command does: the timeline is internal from then on, unless it
+  /// was observed, and later impacts change it.
   void set(const std::string& timeline, const temporal::Value& value);
   std::optional<temporal::Value> value_of(const std::string& timeline) const;
   /// Returns the value that it would have if the activity, which runs,
@@ -33,8 +33,8 @@ class TimelineStore {
 
   /// Applies the impacts at the start, and those that last while the activity runs.
   void begin(const temporal::PlanActivity& activity);
-  /// Ends the lasting ones (a delta is taken back, an assignment gives way to the value before it) and, if
-  /// the activity succeeded, adds those at the end.
+  /// Ends the lasting impacts (a delta is taken back, an assignment gives way to the value before it) and, if
+  /// the activity succeeded, applies those at the end.
   void end(const temporal::PlanActivity& activity, bool succeeded);
 
  private:

@@ -5,7 +5,7 @@
 namespace roci::exec::goals {
 namespace {
 
-// Whether or not it was recalled since.
+// Returns whether both ask for the same, recalled or not.
 bool same_wish(GoalRequest one, const GoalRequest& other) {
   one.recalled = other.recalled;
   return same_request(one, other);
@@ -15,7 +15,7 @@ bool same_record(const GoalRecord& one, const GoalRecord& other) {
   return one.request == other.request && one.state == other.state && one.revision == other.revision;
 }
 
-// In another executive's plan it counts for nothing here.
+// Returns the goal's state here: one that is in another executive's plan is not planned here.
 GoalState state_of(const GoalRecord& record) {
   return is_final(record.state) ? record.state : GoalState::pending;
 }

@@ -1,4 +1,4 @@
-/// Two executives that led apart each have a goal's record; these rules make one of both.
+// Two executives that led apart each have a record of a goal; these rules merge them into one.
 #pragma once
 
 #include <optional>

@@ -20,7 +20,7 @@ using mission::words_of;
 
 namespace {
 
-// Ids become parts of PDDL names.
+// Returns whether the text can be a part of a PDDL name, as ids are.
 bool is_name(const std::string& text) {
   return !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) {
     return std::islower(c) || std::isdigit(c) || c == '-' || c == '_';
@@ -46,8 +46,8 @@ bool same_sender(const SampleId& one, const SampleId& other) {
   return one.sender == other.sender && one.incarnation == other.incarnation;
 }
 
-// Heard before the newest one, or said by a service that was started anew and says what it said
-// before: neither is a new wish.
+// Returns whether the request was heard before the newest one, or comes from a restarted service that
+// repeats itself: neither is a new wish.
 bool is_old(const GoalRecord& record, const GoalRequest& request) {
   const SampleId& sample = request.sample;
   const bool heard = std::ranges::any_of(record.before, [&](const SampleId& before) {
@@ -88,6 +88,11 @@ bool same_request(const GoalRequest& one, const GoalRequest& other) {
 }
 
 bool from_console(const GoalRequest& goal) { return goal.sample.incarnation == 0; }
+
+bool leaves_first(const GoalRecord& one, const GoalRecord& other) {
+  if (one.request.priority != other.request.priority) return one.request.priority < other.request.priority;
+  return one.arrival > other.arrival;
+}
 
 bool is_final(GoalState state) { return state != GoalState::pending && state != GoalState::planned; }
 
@@ -131,6 +136,10 @@ std::string GoalSet::fault_of(const GoalRequest& request, temporal::Time now) co
     }
   }
   if (!request.utility.finite()) return "utility is not a finite number; give one, e.g. 1";
+  const bool has_window = request.opens.count() != 0 || request.closes.count() != 0;
+  if (has_window && mission_->has_domain() && kind->second.window_fact.empty())
+    return "a " + request.kind + " knows no window; leave 'opens' and 'closes' out, or give goal kind '" +
+           request.kind + "' a 'window' in mission.yaml";
   if (request.closes.count() != 0 && request.closes <= std::max(request.opens, now)) {
     return "the window closes before it opens or has passed; give a later end";
   }
@@ -159,8 +168,8 @@ std::string GoalSet::fault_of_address(const GoalRequest& request) const {
          "'; name one of: " + (known.empty() ? role.robot : known);
 }
 
-// An argument that names another goal stands for that goal's objects: those of this goal's facts that hold
-// the argument must be among them.
+// Checks an argument that names another goal and so stands for that goal's objects: those of this goal's
+// facts that hold the argument must be among them.
 std::string GoalSet::fault_of_reference(const GoalRequest& request, const std::string& argument) const {
   const GoalKind& kind = mission_->goal_kinds.at(request.kind);
   const std::string& id = request.arguments.at(argument);
@@ -200,7 +209,8 @@ bool GoalSet::names(const GoalRequest& request, const GoalRequest& other) const 
 
 std::vector<GoalRequest> GoalSet::in_reference_order(std::vector<GoalRequest> requests) const {
   for (auto at = requests.begin(); at != requests.end(); ++at) {
-    // The first from here on that names none of the others; in a circle of names the one that is there.
+    // Finds the first from here on that names none of the others; in a cycle of names, the one that is
+    // there.
     const auto free = std::find_if(at, requests.end(), [&](const GoalRequest& one) {
       return std::none_of(at, requests.end(),
                           [&](const GoalRequest& other) { return &other != &one && names(one, other); });
@@ -332,11 +342,14 @@ std::optional<GoalKey> GoalSet::drop_candidate(const std::vector<GoalKey>& among
   const GoalRecord* optional = nullptr;
   for (const GoalRecord* record : open()) {
     if (std::find(among.begin(), among.end(), record->request.key) == among.end()) continue;
-    if (record->request.importance == GoalClass::opportunistic) opportunistic = record;
-    if (record->request.importance == GoalClass::optional &&
-        (optional == nullptr || record->request.utility <= optional->request.utility)) {
+    const GoalRequest& goal = record->request;
+    if (goal.importance == GoalClass::opportunistic &&
+        (opportunistic == nullptr || leaves_first(*record, *opportunistic)))
+      opportunistic = record;
+    if (goal.importance == GoalClass::optional &&
+        (optional == nullptr || goal.utility < optional->request.utility ||
+         (goal.utility <= optional->request.utility && leaves_first(*record, *optional))))
       optional = record;
-    }
   }
   if (opportunistic != nullptr) return opportunistic->request.key;
   if (optional != nullptr) return optional->request.key;

@@ -1,5 +1,5 @@
-/// The goals of a mission: what was asked, by whom, in which order, and what became of each. Nothing is ever
-/// removed.
+// The goal set keeps the goals of a mission: what was asked, by whom, in which order, and what became of
+// each.
 #pragma once
 
 #include <cstdint>
@@ -14,9 +14,13 @@
 
 namespace roci::exec::goals {
 
+/// Says how much a goal matters; it decides which goal goes first when not all fit (R52, R53).
 enum class GoalClass { hard, optional, opportunistic };
+
+/// Says how far a goal has come; all but pending and planned are final (is_final()).
 enum class GoalState { rejected, pending, planned, achieved, dropped, failed, recalled };
 
+/// Names a goal for good: who asks for it, and the id that the issuer chose.
 struct GoalKey {
   std::string issuer;
   std::string id;
@@ -24,7 +28,7 @@ struct GoalKey {
   std::string text() const { return issuer + "/" + id; }
 };
 
-/// Which of its sender's samples brought a request; numbered per sender and start of it.
+/// Says which of its sender's samples brought a request; samples are numbered anew in each start of a sender.
 struct SampleId {
   std::string sender;
   std::uint32_t incarnation = 0;  ///< 0: a console
@@ -32,15 +36,16 @@ struct SampleId {
   bool operator==(const SampleId&) const = default;
 };
 
+/// Holds a goal as its issuer asked for it. Times are mission times.
 struct GoalRequest {
   GoalKey key;
-  std::string robot;  ///< that is to achieve it; empty: the executive's
+  std::string robot;  ///< robot that is to achieve it; empty: the executive's
   std::string kind;
   std::map<std::string, std::string> arguments;
   GoalClass importance = GoalClass::hard;
   temporal::RankVector utility;
   std::int32_t priority = 0;
-  temporal::Time preferred = temporal::no_bound;  ///< at which it is best achieved; no_bound: none
+  temporal::Time preferred = temporal::no_bound;  ///< time at which it is best achieved; no_bound: none
   temporal::Time opens{0};                        ///< 0: any time
   temporal::Time closes{0};                       ///< 0: never
   bool recalled = false;
@@ -48,15 +53,17 @@ struct GoalRequest {
   bool operator==(const GoalRequest&) const = default;
 };
 
-/// Whoever says it, and however often.
+/// Returns whether both ask for the same, whoever asks and however often.
 bool same_request(const GoalRequest&, const GoalRequest&);
 
-/// Returns whether somebody asks who reads the answer; services, which pass on what a scenario says, do not.
+/// Returns whether a console asks, where somebody reads the answer; services only pass on what a scenario
+/// says.
 bool from_console(const GoalRequest&);
 
-/// What the templates of the goal's kind are filled with: its arguments, its id and its robot.
+/// Returns the values that fill the templates of the goal's kind: its arguments, its id and its robot.
 std::map<std::string, std::string> template_values(const GoalRequest& goal);
 
+/// Holds all that the executive knows of a goal: the request, how far it has come, and why.
 struct GoalRecord {
   GoalRequest request;
   GoalState state = GoalState::pending;
@@ -65,25 +72,29 @@ struct GoalRecord {
   std::uint32_t plan_version = 0;
   SampleId answers;  ///< the newest request of this key, also one that was refused or changed nothing
   std::uint32_t revision = 0;  ///< rises with each change and recall that is taken
-  /// The newest request of each other sender before `answers`, oldest first. Who says a goal keeps its newest sample on
-  /// the topic, so that it is heard again, after one that came later, by an executive that is started anew,
-  /// takes over or was cut off.
+  /// Lists the newest request of each other sender before `answers`, oldest first. A sender's newest sample stays on
+  /// the topic, so an executive that is restarted, takes over or was cut off hears it again, after one that came later.
   std::vector<SampleId> before;
 };
 
-/// Notes that this sample of the goal was heard before the one that the record answers. The newest 16 are kept.
+/// Notes that this sample of the goal was heard before the one that the record answers; the newest 16 are kept.
 void note_before(GoalRecord& record, const SampleId& sample);
 
-/// Who holds what is acknowledged: this executive alone, or both of a pair. In the order of AckStage in idl/goal.idl.
+/// Says who holds what is acknowledged: this executive alone, or both of a pair. It has the order of AckStage in
+/// idl/goal.idl.
 enum class AckStage { journaled, held_by_both };
 
 bool is_final(GoalState state);
 
+/// Of goals that are worth the same, the one with the lower priority leaves first, of equal priority the newer one.
+bool leaves_first(const GoalRecord& one, const GoalRecord& other);
+
+/// Holds every goal that was asked for, with what became of it. Nothing is ever removed.
 class GoalSet {
  public:
   explicit GoalSet(const mission::MissionModel& mission) : mission_(&mission) {}
 
-  /// What became of a request.
+  /// Says what became of a request.
   enum class Disposition {
     known,     ///< this very sample, or an older one: nothing is to be told
     repeated,  ///< the same wish in a new sample, or a recall that is too late: it is answered, nothing else
@@ -100,12 +111,12 @@ class GoalSet {
   /// reason that names the remedy; a bad change leaves the goal as it was, with the reason.
   Submission submit(const GoalRequest& request, temporal::Time now);
 
-  /// These, but each after those of them that its arguments name: who joins a writer late hears goals of
-  /// different keys in any order.
+  /// Returns the requests, each after those that its arguments name: a late joiner hears goals of different
+  /// keys in any order.
   std::vector<GoalRequest> in_reference_order(std::vector<GoalRequest> requests) const;
 
-  /// Takes in what another executive, which led apart, has of a goal (goal_merge.hpp). Returns the record if that
-  /// changes it or it is new; a goal that this mission cannot have is new and rejected.
+  /// Merges the record that another executive, which led apart, has of a goal (goal_merge.hpp). Returns the
+  /// record if it is new or has changed; a goal that this mission cannot have is entered as rejected.
   const GoalRecord* merge(const GoalRecord& theirs);
 
   /// Puts a goal back as the journal has it.
@@ -113,18 +124,19 @@ class GoalSet {
 
   void set_state(const GoalKey& key, GoalState state, std::string reason, std::uint32_t plan_version = 0);
 
-  /// Goals not final yet, in order of arrival.
+  /// Returns the goals that are not final yet, in order of arrival.
   std::vector<const GoalRecord*> open() const;
-  /// Every goal whose objects exist: all but rejected ones. The robot may stand at the place of a goal that
-  /// was given up.
+  /// Returns every goal whose objects exist: all but rejected ones, since the robot may stand at the place of
+  /// a goal that was given up.
   std::vector<const GoalRecord*> present() const;
   std::vector<const GoalRecord*> all() const;
   const GoalRecord* find(const GoalKey& key) const;
 
-  /// Which goal goes when not all fit: the newest opportunistic one, else the optional one of the lowest
-  /// utility by rank (the newest of equals), never a hard one (R52, R53, R113; architecture, "Which goals go").
+  /// Which goal goes when not all fit: an opportunistic one, whatever its utility, else the optional one of the lowest
+  /// utility by rank; of equals as leaves_first() says; never a hard one (R52, R53, R113; architecture, "The way of a
+  /// goal").
   std::optional<GoalKey> drop_candidate() const;
-  /// The same among these goals alone.
+  /// Returns the same among these goals alone.
   std::optional<GoalKey> drop_candidate(const std::vector<GoalKey>& among) const;
 
  private:

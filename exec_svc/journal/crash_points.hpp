@@ -1,6 +1,6 @@
-/// Where exec_svc dies on request, as by kill -9: ROCI_CRASH=POINT:N,POINT:N,… kills its first incarnation
-/// when that passes the point for the Nth time, its second one likewise, and so on. For tests and bench/kill;
-/// without the variable nothing happens.
+// Crash points let exec_svc die on request, as by kill -9: ROCI_CRASH=POINT:N,POINT:N,… kills its first
+// incarnation when that passes the point for the Nth time, its second one likewise, and so on. They serve
+// tests and bench/kill; without the variable nothing happens.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace roci::exec::journal {
 
-/// They stand in the order of one turn.
+/// Names the points, in the order of one turn.
 inline constexpr std::array<std::string_view, 11> kCrashPoints{
     "after-goal",       ///< a goal came in
     "after-hand-over",  ///< the other one of a pair handed over a goal (exec_svc/standby), nothing is decided
@@ -26,10 +26,11 @@ inline constexpr std::array<std::string_view, 11> kCrashPoints{
     "after-send",          ///< everything was sent, no effect seen
 };
 
+/// Counts how often a point is passed, and ends the process at the one that the setting names.
 class CrashPoints {
  public:
-  /// `setting`: as above, or empty; `incarnation` from 1. Throws std::invalid_argument that lists the points.
-  /// `die` does not return.
+  /// Takes a `setting` as above, or an empty one; `incarnation` counts from 1. Throws std::invalid_argument,
+  /// which lists the points. `die` must not return.
   CrashPoints(std::string_view setting, std::uint32_t incarnation, std::function<void()> die);
 
   void pass(std::string_view point);

@@ -26,10 +26,10 @@ constexpr char kSchema[] =
     "CREATE TABLE IF NOT EXISTS position(row INTEGER PRIMARY KEY CHECK(row = 1), epoch INTEGER NOT NULL, "
     "sequence INTEGER NOT NULL);";
 
-// For another program that reads the journal, or copies it, at this moment.
+// Bounds the wait for another program that reads or copies the journal at this moment.
 constexpr int kBusyTimeoutMs = 1000;
 
-// Whether the disk, and not what stands on it, is the cause.
+// Returns whether the disk, and not what stands on it, is the cause.
 bool is_of_the_disk(sqlite3* database) {
   switch (sqlite3_extended_errcode(database)) {
     case SQLITE_FULL:
@@ -130,7 +130,7 @@ Journal::Database::Database(const std::filesystem::path& file, Durability durabi
   }
 }
 
-// What an exception cuts off is half a step: it never becomes durable.
+// Half a step that an exception has cut off never becomes durable.
 Journal::Database::~Database() {
   try {
     if (std::uncaught_exceptions() > exceptions_) {
@@ -139,7 +139,7 @@ Journal::Database::~Database() {
       write();
     }
   } catch (const JournalError&) {
-    // Nobody is left to be told; the file is as after the last commit.
+    // There is nobody left to tell; the file is as after the last commit.
   }
   close();
 }
@@ -176,7 +176,7 @@ void Journal::Database::change(std::function<void()> make) {
   }
 }
 
-// Throws DiskError with everything as before the transaction, and the changes kept.
+// Writes the changes. Throws DiskError with everything as before the transaction, and the changes kept.
 void Journal::Database::write() {
   try {
     if (std::exchange(rolled_back_, false)) {
@@ -232,7 +232,7 @@ std::optional<Batch> Journal::Database::record_changes() {
   return Batch{before, after, std::string(static_cast<const char*>(bytes), static_cast<std::size_t>(size))};
 }
 
-// An applied batch may have brought records, and what the disk has rolled back has its numbers all the same.
+// An applied batch may have brought records, and records that the disk has rolled back keep their numbers.
 std::int64_t Journal::Database::take_record_number() {
   Statement newest(*this, "SELECT COALESCE(MAX(seq), 0) FROM record");
   newest.row();
@@ -266,7 +266,7 @@ void Journal::Database::note_extent() {
   try {
     mark->write(extent());
   } catch (const JournalError&) {
-    // The commit stands; the mark is of the one before.
+    // The commit stands, and the mark stays that of the one before.
   }
 }
 

@@ -1,5 +1,5 @@
-/// The SQLite file behind a journal: its tables, one open transaction at most, prepared statements, and what
-/// a commit changed. Seen by the journal's own sources alone.
+// This is the SQLite file behind a journal: its tables, at most one open transaction, prepared statements,
+// and what a commit changed. The journal's own sources alone see it.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ struct sqlite3_session;
 
 namespace roci::exec::journal {
 
-/// A prepared statement; bound values are copied.
+/// Holds a prepared statement; bound values are copied.
 class Statement {
  public:
   Statement(const Journal::Database& database, const char* sql);
@@ -42,14 +42,15 @@ class Statement {
   int bound_ = 0;
 };
 
-/// The columns of a goal's row: issuer, id, request, state, reason, arrival, plan_version.
+/// Gives the columns of a goal's row: issuer, id, request, state, reason, arrival, plan_version.
 struct GoalRow {
   std::function<std::string(int column)> text;
   std::function<std::int64_t(int column)> number;
 };
-/// Reads it. Throws JournalError for one that is damaged.
+/// Reads the goal in a row. Throws JournalError for a row that is damaged.
 goals::GoalRecord goal_in(const GoalRow& row);
 
+/// Keeps the open database, and the changes since the last commit until the disk has taken them.
 struct Journal::Database {
   Database(const std::filesystem::path& file, Durability durability);
   ~Database();
@@ -58,16 +59,17 @@ struct Journal::Database {
 
   void execute(const char* sql) const;
   /// Makes a change in the open transaction (a new one, if there is none). While the disk takes nothing the change is
-  /// kept, and made by the commit.
+  /// kept, and the commit makes it.
   void change(std::function<void()> make);
   void commit();
   void roll_back();
-  /// The number of the next record. It is the same whenever the change that writes it is made.
+  /// Returns the number of the next record, which is fixed here, whenever the change that writes the record
+  /// is made.
   std::int64_t take_record_number();
   Position position() const;
   void set_position(const Position& position);
   Extent extent() const;
-  /// Is called after each commit.
+  /// Brings the mark up to date; it is called after each commit.
   void note_extent();
 
   sqlite3* handle = nullptr;

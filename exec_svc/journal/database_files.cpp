@@ -8,7 +8,7 @@
 #include <string>
 #include <system_error>
 
-#include "exec_svc/journal/journal.hpp"
+#include "core/durable/durable_file.hpp"
 
 namespace roci::exec::journal {
 
@@ -22,6 +22,18 @@ void remove_database(const fs::path& file) {
 void remove_database_logs(const fs::path& file) {
   std::error_code ignored;
   for (const char* suffix : {"-wal", "-shm"}) fs::remove(fs::path(file).concat(suffix), ignored);
+}
+
+void put_in_place(const fs::path& unfinished, const fs::path& file, Durability durability) {
+  try {
+    durable::put_in_place(
+        unfinished, file,
+        durability == Durability::power ? durable::Durability::power : durable::Durability::process);
+  } catch (const fs::filesystem_error&) {
+    throw;
+  } catch (const std::system_error& error) {
+    throw DiskError(error.what());
+  }
 }
 
 void sync_path(const fs::path& path) {

@@ -31,7 +31,7 @@ std::string line_of(const GoalRecord& goal) {
   return goal.request.key.text() + " " + std::to_string(static_cast<int>(goal.state)) + " " + goal.reason;
 }
 
-// Activity, state, window of its start in microseconds of mission time (-1: no bound), cause.
+// Writes activity, state, window of its start in microseconds of mission time (-1: no bound), and cause.
 std::string line_of(const StepStatus& step) {
   return step.activity + " " + std::to_string(static_cast<int>(step.state)) + " [" +
          std::to_string(step.earliest_start.count()) + "," + std::to_string(number(step.latest_start)) +
@@ -83,7 +83,7 @@ std::string line_of(const Command& command) {
          command.subsystem + " " + command.command_name + properties_text(command.arguments);
 }
 
-// A PDDL problem as it is; else the goals, the state at the origin and what is predicted.
+// Writes a PDDL problem as it is; else the goals, the state at the origin and what is predicted.
 std::string line_of(const PlanRequest& call) {
   const problem::Problem& problem = call.problem;
   if (!problem.text.empty()) return problem.text;

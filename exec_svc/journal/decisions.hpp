@@ -1,5 +1,5 @@
-/// What the reactor decided in one step, as lines of text: what the journal keeps for people and for the
-/// trace, and what a replay is compared with.
+// Decisions of the reactor stand as lines of text: the journal keeps them for people and for the trace, and a
+// replay is compared with them.
 #pragma once
 
 #include <string>
@@ -11,6 +11,7 @@
 
 namespace roci::exec::journal {
 
+/// Holds one decision of a step as text.
 struct DecisionLine {
   std::string kind;  ///< "goal", "event", "step", "trace" (plans and commands), "call"
   std::string text;
@@ -21,7 +22,7 @@ struct DecisionLine {
 /// microseconds.
 std::vector<DecisionLine> decisions(temporal::Time now, const reactor::ReactorOutputs& out);
 
-/// Whether a record of the journal is such a line; the other records were seen or measured.
+/// Returns whether a record of the journal is such a line; the other records were seen or measured.
 bool is_decision(std::string_view kind, std::string_view text);
 
 }  // namespace roci::exec::journal

@@ -1,5 +1,5 @@
-/// The version of a journal: of its tables, and of the texts and numbers in them. docs/formats.md publishes
-/// it.
+// The version of a journal is that of its tables, and of the texts and numbers in them. docs/formats.md
+// publishes it.
 #pragma once
 
 #include <cstdint>
@@ -9,28 +9,28 @@ struct sqlite3;
 
 namespace roci::exec::journal {
 
-/// The newest version that this code reads; it writes this one. It rises when a table, the meaning of a
-/// column or the form of a decision's line changes.
+/// Numbers the newest version that this code reads, and the one that it writes. It rises when a table, the meaning
+/// of a column or the form of a decision's line changes.
 inline constexpr int kFormat = 1;
 
 /// The version of inputs and snapshots, which the journal states as its number `format`. It rises when
 /// reactor/message_fields.hpp or the reactor's snapshot change. Those of another version are never read: the
 /// executive keeps goals and plan numbers and plans anew, roci-replay refuses.
-inline constexpr std::int64_t kInputFormat = 14;
+inline constexpr std::int64_t kInputFormat = 15;
 
-/// What a journal of a version states besides in its second place, SQLite's application_id, so that one flipped byte is
-/// not taken for a newer version.
+/// Returns what a journal of a version also states in SQLite's application_id, so that one flipped byte is not taken
+/// for a newer version.
 constexpr std::int32_t stamp_of(std::int32_t version) { return 0x524f0000 + version; }
 
-/// What a journal states of its version.
+/// Holds what a journal states of its version, in two places.
 struct StatedFormat {
   std::int32_t version = 0;  ///< user_version; 0: none
   std::int32_t stamp = 0;    ///< application_id; 0: none, as before there was a second place
   bool newer() const { return version > kFormat && stamp == stamp_of(version); }
-  /// Nobody has written it so: it is damaged.
+  /// Returns whether the places contradict each other, so that the journal is damaged.
   bool contradicts_itself() const { return version > kFormat && !newer(); }
 };
-/// Throws JournalError where it cannot be read.
+/// Reads what the database states. Throws JournalError where it cannot be read.
 StatedFormat stated_format(sqlite3* database);
 std::string to_text(const StatedFormat& stated);
 

@@ -13,7 +13,7 @@
 namespace roci::exec::journal {
 namespace {
 
-// FNV-1a, of the two numbers as they stand in the file.
+// Computes FNV-1a over the two numbers as the file has them.
 std::uint64_t checksum(const std::string& text) {
   std::uint64_t hash = 14695981039346656037ULL;
   for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ULL;
@@ -24,7 +24,7 @@ std::string numbers_text(const Extent& extent) {
   return std::to_string(extent.epoch) + " " + std::to_string(extent.record);
 }
 
-// Always of one length: it is written over the one before.
+// Returns a text that always has one length, as it is written over the one before.
 std::string to_text(const Extent& extent) {
   std::array<char, 96> out{};
   std::snprintf(out.data(), out.size(), "%20lld %20lld %20llu\n", static_cast<long long>(extent.epoch),

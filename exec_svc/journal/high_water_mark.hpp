@@ -1,5 +1,5 @@
-/// How far a journal was written, kept outside of the database: SQLite drops the tail of a write-ahead log that is cut
-/// short or damaged without a word ("WAL-mode File Format", section 4), and the journal looks whole all the same.
+// The high-water mark says how far a journal was written, outside of the database: SQLite silently drops the tail of a
+// write-ahead log that is cut short or damaged ("WAL-mode File Format", section 4), and the journal still looks whole.
 #pragma once
 
 #include <compare>
@@ -9,15 +9,15 @@
 
 namespace roci::exec::journal {
 
-/// How far a journal goes. Neither number ever falls while it is the same journal.
+/// Says how far a journal goes. Neither number ever falls while it is the same journal.
 struct Extent {
   std::int64_t epoch = 0;
   std::int64_t record = 0;  ///< the number of the newest record; 0: there is none
   bool operator==(const Extent&) const = default;
 };
 
-/// The file JOURNAL-mark. It is written after each commit and never waits for the disk, so that it may be behind the
-/// journal, and is before it only when the journal has lost something.
+/// Keeps the file JOURNAL-mark. It is written after each commit and never waits for the disk: it may be behind the
+/// journal, and is ahead of it only when the journal has lost something.
 class HighWaterMark {
  public:
   /// Opens nothing yet.
@@ -27,9 +27,9 @@ class HighWaterMark {
   HighWaterMark& operator=(HighWaterMark&&) = delete;
 
   const std::filesystem::path& file() const { return file_; }
-  /// Nothing: there is no mark, or one whose checksum is wrong.
+  /// Returns the mark, or nothing if there is none or its checksum is wrong.
   std::optional<Extent> read() const;
-  /// Puts the mark there. What goes wrong is left out: an older mark says less, and nothing that is not true.
+  /// Writes the mark. Failures are ignored: an older mark says less, but nothing untrue.
   void write(const Extent& extent) noexcept;
   void remove() noexcept;
 

@@ -43,7 +43,7 @@ std::string encode(const GoalRecord& record) {
                      {"recalled", goal.recalled},
                      {"said_in", to_json(goal.sample)},
                      {"answers", to_json(record.answers)}};
-  // What baseline-05 did not know stands there only where it says something.
+  // Members that baseline-05 did not know are written only where they say something.
   if (goal.utility.scores().size() > 1) out["ranks"] = goal.utility.scores();
   if (goal.preferred != temporal::no_bound) out["preferred"] = goal.preferred.count();
   if (!goal.robot.empty()) out["robot"] = goal.robot;
@@ -53,12 +53,12 @@ std::string encode(const GoalRecord& record) {
   return out.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
-// JSON knows no NaN: it stands there as null.
+// Reads a number; JSON has no NaN, which is written as null.
 double number_of(const nlohmann::json& json) {
   return json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>();
 }
 
-// The highest rank stands alone under its first name, all of several under another one.
+// Reads a utility: a single rank stands under its first name, several under another one.
 temporal::RankVector utility_in(const nlohmann::json& json) {
   const auto ranks = json.find("ranks");
   if (ranks == json.end()) return {number_of(json.at("utility"))};
@@ -67,7 +67,7 @@ temporal::RankVector utility_in(const nlohmann::json& json) {
   return temporal::RankVector(std::move(scores));
 }
 
-// The member `last` and those before it are the enum's.
+// Reads an enumerator, at most `last`.
 template <class Enum>
 Enum enumerator(std::int64_t number, Enum last) {
   if (number < 0 || number > static_cast<std::int64_t>(last)) throw JournalError("a goal of no known kind");

@@ -1,4 +1,4 @@
-// The journal as a row of batches, and a journal from another one's.
+// This file writes the journal as a sequence of batches, and makes a journal from another one's.
 #define SQLITE_ENABLE_SESSION
 #define SQLITE_ENABLE_PREUPDATE_HOOK
 #include <sqlite3.h>
@@ -44,8 +44,8 @@ void write(const fs::path& file, std::string_view bytes) {
 
 void Journal::begin_epoch(std::uint64_t epoch) {
   commit();
-  // What was written before there was a pair is in no batch: an empty copy must not take it for its own past.
-  // Nor may one that was salvaged, from another damaged journal, take it for the same.
+  // What was written before there was a pair is in no batch, so an empty copy must not take it for its own
+  // past. Nor may journals that were salvaged from different damaged ones take each other for the same.
   const bool nobodys_past = (position() == Position{} && !empty()) || position() == kForkedHistory;
   if (nobodys_past) database_->set_position({epoch, 0});
   database_->epoch = epoch;
@@ -87,7 +87,7 @@ void Journal::apply(const Batch& batch) {
 }
 
 std::string Journal::serialized() const {
-  // Through a door of its own: what is not committed yet stays out.
+  // A connection of its own leaves out what is not committed yet.
   sqlite3* opened = nullptr;
   const int status = sqlite3_open_v2(file_.c_str(), &opened, SQLITE_OPEN_READONLY, nullptr);
   const std::unique_ptr<sqlite3, decltype(&sqlite3_close)> reader(opened, sqlite3_close);
@@ -115,8 +115,7 @@ void Journal::replace_with(std::string_view whole) {
   if (mark) mark->remove();  // it is of the journal that goes
   database_.reset();
   remove_database_logs(file_);  // they belong to the database that goes
-  fs::rename(arrived, file_);
-  if (durability_ == Durability::power) sync_path(file_.parent_path());
+  put_in_place(arrived, file_, durability_);
   database_ = std::make_unique<Database>(file_, durability_);
   database_->disk_wait = std::move(disk_wait);
   if (mark) database_->mark.emplace(std::move(*mark));

@@ -17,16 +17,17 @@ using reactor::ReactorOutputs;
 
 namespace {
 
-// A replay of so many turns takes a moment, no more; an anchor is written then wherever the reactor rests.
+// Bounds the turns of a replay, so that it takes a moment: an anchor is written then as soon as the reactor
+// rests.
 constexpr std::size_t kTurnsUntilAnchor = 500;
 
-// So many plans another executive has not made meanwhile.
+// Exceeds the number of plans that another executive may have made meanwhile.
 constexpr std::int64_t kPlansOfAnother = 1000;
 
-// What plans have made of timelines that nobody observes.
+// Names the journal's text with what plans have made of timelines that nobody observes.
 constexpr char kConcluded[] = "concluded";
 
-// Of requests the journal's table keeps what can be shown; the inputs have them exactly.
+// Compares goals as far as the journal's table keeps their requests; the inputs have them exactly.
 bool same(const GoalRecord& a, const GoalRecord& b) {
   return a.request.key == b.request.key && a.state == b.state && a.reason == b.reason &&
          a.arrival == b.arrival && a.plan_version == b.plan_version;
@@ -101,19 +102,20 @@ bool JournaledReactor::replay() {
   return true;
 }
 
-// Goals, plan numbers and what the ground leaves to the executive from the journal, the rest from observations to come.
+// Begins with goals, plan numbers and what the ground leaves to the executive from the journal; the rest comes from
+// observations.
 void JournaledReactor::begin_anew() {
   reactor_ = std::make_unique<Reactor>(*mission_);
   reactor_->restore(journal_->goals(), static_cast<std::uint32_t>(journal_->number("plan_version", 0)));
   const std::int64_t first = static_cast<std::int64_t>(mission_->executive.autonomy);
-  reactor_->restore_authority(static_cast<orders::AutonomyLevel>(journal_->number("autonomy", first)),
+  reactor_->restore_authority(static_cast<mission::AutonomyLevel>(journal_->number("autonomy", first)),
                               journal_->number("held", 0) != 0);
   restore_concluded();
   journal_->set_number("format", journal::kInputFormat);
   anchor(temporal::Time{0}, "restored");
 }
 
-// Nobody else could tell them again.
+// Restores conclusions, which nobody else could tell again.
 void JournaledReactor::restore_concluded() {
   const std::string bytes = journal_->text(kConcluded);
   if (bytes.empty()) return;

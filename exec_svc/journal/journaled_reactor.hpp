@@ -1,5 +1,5 @@
-/// A reactor whose inputs and decisions stand in the journal before anything leaves it, so that whoever opens
-/// the journal after a crash goes on exactly where it was.
+// A journaled reactor's inputs and decisions stand in the journal before anything leaves it, so that whoever
+// opens the journal after a crash goes on exactly where it was.
 #pragma once
 
 #include <cstddef>
@@ -16,24 +16,25 @@
 
 namespace roci::exec::journal {
 
-/// What was found in the journal.
+/// Says what was found in the journal.
 struct Recovery {
   bool restarted = false;  ///< an earlier start left something
   bool resumed = false;    ///< its state is back; else only its goals are, and all is planned anew
   std::size_t turns = 0;   ///< replayed since the last anchor
-  std::optional<Divergence> divergence;     ///< why not resumed
-  std::vector<reactor::Event> last_events;  ///< of the newest turn: perhaps nobody heard them
+  std::optional<Divergence> divergence;     ///< why it was not resumed
+  std::vector<reactor::Event> last_events;  ///< those of the newest turn, which may not have been sent
 };
 
+/// Steps a reactor, and makes inputs and decisions durable before it returns them.
 class JournaledReactor {
  public:
-  /// Both outlive this. Throws JournalError.
-  /// `doubtful`: another executive may have gone on from this journal; its goals count, all else is planned
-  /// anew, under numbers of plans that nobody used.
+  /// Recovers the reactor from the journal; both arguments must outlive this object. If `doubtful`, another
+  /// executive may have gone on from this journal: its goals count, all else is planned anew, under plan
+  /// numbers that nobody used. Throws JournalError.
   JournaledReactor(const mission::MissionModel& mission, Journal& journal, bool doubtful = false);
 
-  /// Steps the reactor; returns when inputs and decisions are durable. `seen`: lines of the trace for the
-  /// inputs.
+  /// Steps the reactor, and returns when inputs and decisions are durable. `seen` has the lines of the trace
+  /// for the inputs.
   reactor::ReactorOutputs step(temporal::Time now, reactor::ReactorInputs inputs,
                                const std::vector<std::string>& seen);
 

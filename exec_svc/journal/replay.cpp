@@ -12,7 +12,7 @@ using reactor::ReactorInputs;
 
 namespace {
 
-// Of long texts (problems) the kind and the first line that differs.
+// Keeps, of long texts (problems), the kind and the first line that differs.
 void keep_different_line(std::string& a, std::string& b) {
   const auto differs = std::mismatch(a.begin(), a.end(), b.begin(), b.end()).first;
   const std::size_t line = a.rfind('\n', static_cast<std::size_t>(differs - a.begin()));

@@ -1,4 +1,5 @@
-/// A journal's inputs through a reactor again, and whether it decides what it decided then.
+// A replay sends a journal's inputs through a reactor again, and tells whether it decides what it decided
+// then.
 #pragma once
 
 #include <cstddef>
@@ -13,28 +14,29 @@
 
 namespace roci::exec::journal {
 
-/// The first decision that came out differently.
+/// Holds the first decision that came out differently.
 struct Divergence {
   temporal::Time time{0};
   std::string expected;  ///< "kind text" as journaled; empty: nothing more was decided then
   std::string got;       ///< empty: nothing more is decided now
 };
 
+/// Compares what a reactor decides now with the decisions of a journal, up to the first difference.
 class Replay {
  public:
   explicit Replay(reactor::Reactor& reactor) : reactor_(&reactor) {}
 
-  /// One record of the journal after the other. After a divergence nothing more happens.
+  /// Takes the next record of the journal. After a divergence nothing more happens.
   void take(temporal::Time time, std::string_view kind, std::string_view bytes);
-  /// After the last record.
+  /// Compares the last turn; it is to be called after the last record.
   void finish();
 
   const std::optional<Divergence>& divergence() const { return divergence_; }
   std::size_t turns() const { return turns_; }
   temporal::Time now() const { return now_; }
-  /// Returns those of the newest turn.
+  /// Returns what the reactor put out in the newest turn.
   const reactor::ReactorOutputs& outputs() const { return outputs_; }
-  /// The decision that equalled the newest journaled one.
+  /// Returns the decision that equalled the newest journaled one.
   const DecisionLine& matched() const { return lines_.at(matched_ - 1); }
 
  private:
@@ -44,7 +46,7 @@ class Replay {
   reactor::Reactor* reactor_;
   reactor::ReactorOutputs outputs_;
   std::vector<DecisionLine> lines_;  ///< decided now
-  std::size_t matched_ = 0;          ///< of them
+  std::size_t matched_ = 0;          ///< number of them that were journaled, too
   std::size_t turns_ = 0;
   temporal::Time now_{0};
   std::optional<Divergence> divergence_;

@@ -1,4 +1,4 @@
-/// The round trips to owners behind links, as the journal keeps them: a run that is repeated has the same.
+// The journal keeps the round trips to owners behind links, so that a run that is repeated has the same.
 #pragma once
 
 #include <map>
@@ -11,9 +11,9 @@ namespace roci::exec::journal {
 
 using RoundTrips = std::map<std::string, temporal::Duration>;
 
-/// A line for each owner: its name, a blank, microseconds.
+/// Writes a line for each owner: its name, a blank, microseconds.
 std::string round_trips_text(const RoundTrips&);
-/// What is no such line is left out.
+/// Reads such lines, and ignores any other.
 RoundTrips round_trips_of(std::string_view text);
 
 }  // namespace roci::exec::journal

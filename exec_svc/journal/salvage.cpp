@@ -37,7 +37,7 @@ class Connection {
   Connection(const Connection&) = delete;
   Connection& operator=(const Connection&) = delete;
 
-  /// Visits rows until there is none left or one cannot be read; false: the latter.
+  /// Visits rows until there is none left or one cannot be read; returns false for the latter.
   bool rows(const std::string& sql, const std::function<void(sqlite3_stmt*)>& visit) const {
     sqlite3_stmt* opened = nullptr;
     if (sqlite3_prepare_v2(handle_, sql.c_str(), -1, &opened, nullptr) != SQLITE_OK) return false;
@@ -47,7 +47,7 @@ class Connection {
     return status == SQLITE_DONE;
   }
   sqlite3* handle() const { return handle_; }
-  /// The first column of the first row; what went wrong instead, if there is none.
+  /// Returns the first column of the first row or, if there is none, what went wrong.
   std::string word(const std::string& sql) const {
     std::string out;
     const bool read = rows(sql, [&out](sqlite3_stmt* row) {
@@ -92,7 +92,7 @@ struct Record {
   std::string text;
 };
 
-// What was read of a damaged journal.
+// Holds what was read of a damaged journal.
 struct Remains {
   std::map<GoalKey, GoalRecord> goals;
   std::size_t goals_lost = 0;  // rows of them that say nothing
@@ -106,7 +106,7 @@ bool can_be_repeated(const std::string& kind) {
   return kind == "input" || kind == "anchor" || kind == "restored";
 }
 
-// From both ends, so that one bad page in the middle takes no other with it.
+// Reads from both ends, so that one bad page in the middle costs no other row.
 void read_table(const Connection& database, const std::string& select, const std::string& key,
                 Remains& remains, const std::function<void(sqlite3_stmt*)>& visit) {
   if (database.rows(select + " ORDER BY " + key, visit)) return;
@@ -181,7 +181,7 @@ Remains read_copy(const fs::path& file, const fs::path& template_file) {
   return remains;
 }
 
-// Those of which each value means something by itself, within what it may be.
+// Returns whether a number means something by itself, and the value lies within its range.
 bool is_plausible(const std::string& name, std::int64_t value) {
   if (name == "epoch" || name == "plan_version") return value >= 0 && value < std::int64_t{1} << 31;
   if (name == "autonomy") return value >= 0 && value <= 3;
@@ -227,10 +227,10 @@ void quarantine(const fs::path& file, const fs::path& kept) {
   std::error_code none;
   fs::remove(fs::path(file).concat("-shm"), none);
   if (fs::exists(fs::path(file).concat("-wal")))
-    fs::rename(fs::path(file).concat("-wal"), fs::path(kept).concat("-wal"));
+    put_in_place(fs::path(file).concat("-wal"), fs::path(kept).concat("-wal"), Durability::power);
   const fs::path mark = HighWaterMark(file).file();
-  if (fs::exists(mark)) fs::rename(mark, HighWaterMark(kept).file());
-  fs::rename(file, kept);
+  if (fs::exists(mark)) put_in_place(mark, HighWaterMark(kept).file(), Durability::power);
+  put_in_place(file, kept, Durability::power);
 }
 
 }  // namespace
@@ -262,7 +262,7 @@ std::string damage_of(const fs::path& file) {
 void salvage_if_damaged(const fs::path& file) {
   const fs::path mended = fs::path(file).concat(".mended");
   if (!fs::exists(file) && fs::exists(mended))
-    fs::rename(mended, file);  // it was stopped between the two renames
+    put_in_place(mended, file, Durability::power);  // it was stopped between the two renames
   const std::string damage = damage_of(file);
   if (damage.empty()) return;
   const fs::path kept = free_name(file);
@@ -275,7 +275,7 @@ void salvage_if_damaged(const fs::path& file) {
     } else {
       remains.whole = false;
     }
-    // The mark knows the epoch, too, and the later one holds.
+    // The mark has an epoch, too, and the later one counts.
     if (const auto extent = HighWaterMark(file).read()) {
       std::int64_t& epoch = remains.numbers["epoch"];
       epoch = std::max(epoch, extent->epoch);
@@ -283,8 +283,7 @@ void salvage_if_damaged(const fs::path& file) {
     write_remains(mended, remains, summary_of(file.filename().string(), damage, remains, kept));
     sync_path(mended);
     quarantine(file, kept);
-    fs::rename(mended, file);
-    sync_path(file.parent_path());
+    put_in_place(mended, file, Durability::power);
   } catch (const fs::filesystem_error& error) {
     const bool of_the_disk =
         error.code() == std::errc::no_space_on_device || error.code() == std::errc::io_error;

@@ -1,5 +1,5 @@
-/// What becomes of a journal that is damaged: nothing of it is thrown away, what can be read of it begins a new one,
-/// and the executive starts in doubt.
+// Salvage deals with a damaged journal: the damaged file is kept, what can be read of it begins a new one, and the
+// executive starts in doubt.
 #pragma once
 
 #include <filesystem>
@@ -9,8 +9,8 @@
 
 namespace roci::exec::journal {
 
-/// The name of the journal's text that says how it was damaged, for the ground; empty:
-/// it is whole, or the ground knows.
+/// Names the journal's text that tells the ground how the journal was damaged; the text is empty if it is
+/// whole or the ground knows.
 inline constexpr char kDamage[] = "damage";
 
 /// Says what is wrong with a journal, in plain words; empty for one that is whole, and where there is none. Every page,

@@ -1,5 +1,5 @@
-/// The trace of a run: one line per plan, command, acknowledgement and observation, with its simulated time,
-/// and the SHA-256 over all of them. Two runs are the same run when their traces are.
+// The trace of a run has one line per plan, command, acknowledgement and observation, with its simulated
+// time. Two runs are the same run when their traces are.
 #pragma once
 
 #include <memory>
@@ -8,6 +8,7 @@
 
 namespace roci::exec::journal {
 
+/// Computes the SHA-256 over the lines of a trace as they come.
 class Trace {
  public:
   Trace();

@@ -1,6 +1,8 @@
 #include "exec_svc/mission/action_entries.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <iterator>
 #include <string_view>
 #include <utility>
@@ -12,13 +14,12 @@ namespace roci::exec::mission {
 using executive::Contingency;
 using executive::ContingencyCommand;
 using executive::StartPolicy;
-using orders::AutonomyLevel;
 
 namespace {
 
 using roci::mission::Entry;
 
-// One of the words that may stand there.
+// Reads one of the permitted words.
 template <typename Meaning, std::size_t Count>
 Meaning read_word(const Entry& entry, const char* what,
                   const std::pair<const char*, Meaning> (&words)[Count]) {
@@ -163,6 +164,11 @@ AutonomyLevel read_autonomy(const Entry& entry) {
                                                                   {"E4", AutonomyLevel::e4},
                                                                   {"E5", AutonomyLevel::e4}};
   return read_word(entry, "level of autonomy", levels);
+}
+
+const char* to_string(AutonomyLevel level) {
+  constexpr std::array names{"E1", "E2", "E3", "E4"};
+  return names.at(static_cast<std::size_t>(level));
 }
 
 Replanning read_replanning(const Entry& entry) {

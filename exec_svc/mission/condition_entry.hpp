@@ -1,4 +1,4 @@
-/// Conditions over timelines as mission files write them.
+// This file reads conditions over timelines as mission files write them.
 #pragma once
 
 #include <map>

@@ -10,13 +10,14 @@
 #include "core/words/nearest_word.hpp"
 #include "exec_svc/mission/goal_kind_entries.hpp"
 #include "exec_svc/mission/template_text.hpp"
+#include "exec_svc/mission/variable_count.hpp"
 
 namespace roci::exec::mission {
 namespace {
 
 using roci::mission::Entry;
 
-// "battery, reserve; did you mean 'battery'?"
+// Returns e.g. "battery, reserve; did you mean 'battery'?".
 std::string known_names(const std::string& word, const std::vector<std::string>& all) {
   std::string out;
   for (const std::string& one : all) out += (out.empty() ? "" : ", ") + one;
@@ -43,7 +44,7 @@ void require_symbol(const Entry& entry, const std::string& name, std::size_t arg
   }
 }
 
-// "(at ?1)": the first word is one of the symbols, the others are its arguments.
+// Requires of "(at ?1)" that the first word is one of the symbols and the others are its arguments.
 void require_symbol(const Entry& entry, const std::string& text, const std::vector<pddl::Signature>& symbols,
                     const std::string& what) {
   const auto words = words_of(text);
@@ -74,7 +75,14 @@ class NameCheck {
   void goals(const Entry& kind) const {
     const auto list = kind.find("goal");
     if (!list) return;
-    list->each([&](const Entry& goal) { formula(goal, read_goal(goal, kind, &domain_)); });
+    list->each([&](const Entry& goal) {
+      const pddl::Condition condition = read_goal(goal, kind, &domain_);
+      const std::size_t variables = variable_count(condition);
+      if (variables > kMostVariables)
+        goal.fail("the goal has " + std::to_string(variables) + " variables, and " +
+                  std::to_string(kMostVariables) + " are supported; use fewer quantifiers");
+      formula(goal, condition);
+    });
   }
   void fact(const Entry& parent, const char* key) const {
     if (const auto entry = parent.find(key))
@@ -179,7 +187,9 @@ class NameCheck {
 
 pddl::Domain read_domain(const std::string& text, const std::string& file) {
   try {
-    return pddl::load_domain(text, file);
+    pddl::Domain domain = pddl::load_domain(text, file);
+    require_few_variables(domain);
+    return domain;
   } catch (const pddl::ParseError& error) {
     throw roci::mission::FileError(error.what());
   }

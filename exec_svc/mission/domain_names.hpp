@@ -1,6 +1,5 @@
-/// A mission file speaks of its PDDL domain by name: actions, types, predicates, fluents. What it names must
-/// stand there, so that a slip of the pen is found when the mission is read and not when the first plan is
-/// wanted.
+// A mission file names actions, types, predicates and fluents of its PDDL domain. They must exist there, so
+// that a misspelt name is found when the mission is read and not when the first plan is wanted.
 #pragma once
 
 #include <string>
@@ -10,7 +9,7 @@
 
 namespace roci::exec::mission {
 
-/// The domain that the text is. Throws roci::mission::FileError with the place in `file` and the remedy.
+/// Parses the text of a domain. Throws roci::mission::FileError with the place in `file` and the remedy.
 pddl::Domain read_domain(const std::string& text, const std::string& file);
 
 /// Throws roci::mission::FileError at the first name in mission.yaml (`root`) that the domain does not know,

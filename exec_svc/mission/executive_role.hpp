@@ -1,5 +1,4 @@
-/// Which of a mission's executives a process is: whose robot it commands, and who answers what is addressed to
-/// none.
+// The role of an executive says whose robot it commands, and who answers what is addressed to none.
 #pragma once
 
 #include <string>
@@ -9,22 +8,24 @@
 
 namespace roci::exec::mission {
 
+/// Says which of a mission's executives a process is.
 struct ExecutiveRole {
-  std::string robot;  ///< that it commands; empty: every robot of the mission
-  /// Whether the mission has other executives beside this one (with its standby).
+  std::string robot;  ///< robot that it commands; empty: every robot of the mission
+  /// Says whether the mission has other executives beside this one (with its standby).
   bool one_of_several = false;
   /// Names the robots that one of several executives commands.
   std::vector<std::string> commanded;
-  /// Whether this one answers goals that name no robot of any executive: the team's executive does, else the
-  /// first of the list, so that they are answered once.
+  /// Says whether this one answers goals that name no robot of any executive: the team's executive does, else
+  /// the first of the list, so that they are answered once.
   bool answers_strays = true;
 };
 
-/// The role of the service `name` in the list; of one that the list does not name: alone, with `robot`.
+/// Returns the role of the service `name` in the list; one that the list does not name is alone, with
+/// `robot`.
 ExecutiveRole role_of(const roci::mission::ServiceList& list, const std::string& name,
                       const std::string& robot);
 
-/// Who takes a goal that names this robot (empty: none).
+/// Says who takes a goal that names a robot (empty: none).
 enum class Addressee {
   this_one,
   another,

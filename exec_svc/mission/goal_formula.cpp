@@ -17,7 +17,7 @@ using Translated = std::optional<temporal::Condition>;
 
 Translated translated(const pddl::Condition& formula);
 
-// Nothing if one of the parts has no translation.
+// Translates all parts, or returns nothing if one has no translation.
 std::optional<std::vector<temporal::Condition>> translated(const std::vector<pddl::Condition>& parts) {
   std::vector<temporal::Condition> out;
   for (const pddl::Condition& part : parts) {
@@ -91,7 +91,7 @@ Translated translated(const pddl::Condition& formula) {
 }  // namespace
 
 pddl::Condition read_goal_formula(const std::string& text) {
-  // Strictly: a text that closes more than it opens would end the problem, and lose what follows.
+  // Reading is strict, as a text that closes more than it opens would end the problem and lose what follows.
   return pddl::parse_problem("(define (problem p) (:domain d) (:init) (:goal " + text + "))", "goal",
                              pddl::Strictness::strict)
       .goal;

@@ -24,7 +24,8 @@ std::vector<std::string> texts_or_none(const Entry& parent, const char* key) {
   return entry ? entry->texts() : std::vector<std::string>{};
 }
 
-// `template_of_kind`: the goal may say which robot its objects are seen by, so that no robot need be known yet.
+// Reads an object. For a `template_of_kind` no robot need be known yet, as the goal may say by which robot its
+// objects are seen.
 ObjectModel read_object(const Entry& entry, bool has_domain, const ExecutiveRole& role,
                         bool template_of_kind) {
   entry.allow_only({"name", "type", "dynamic", "properties"});
@@ -63,7 +64,7 @@ ArgumentKind read_argument_kind(const Entry& entry, const pddl::Domain* domain) 
              words::did_you_mean(text, known));
 }
 
-// The facts that a state of a component or of a family stands for; nothing if it is none of theirs.
+// Returns the facts that a state of a component or a family stands for, or nothing if it is none of theirs.
 std::optional<std::vector<std::string>> facts_of(const ConditionNode& node, const MissionModel& mission) {
   const auto* state = std::get_if<temporal::State>(&node.operand);
   if (state == nullptr) return std::nullopt;
@@ -84,7 +85,7 @@ std::optional<std::vector<std::string>> facts_of(const ConditionNode& node, cons
   return std::nullopt;
 }
 
-// The PDDL goal that a conjunction of states means.
+// Returns the PDDL goal that a conjunction of states means.
 std::vector<std::string> facts_of(const Entry& achieved, const temporal::Condition& condition,
                                   const MissionModel& mission) {
   std::vector<std::string> out;
@@ -103,7 +104,7 @@ std::vector<std::string> facts_of(const Entry& achieved, const temporal::Conditi
   return out;
 }
 
-// Texts of `goal` with something in the place of each {name}: enough to be read.
+// Returns something for each {name} of the texts of `goal`, so that they can be parsed.
 std::map<std::string, std::string> placeholders(const Entry& kind, const pddl::Domain* domain) {
   std::map<std::string, std::string> out{{"id", "id"}, {"robot", "robot"}};
   if (const auto arguments = kind.find("arguments"))

@@ -1,5 +1,6 @@
 #include "exec_svc/mission/mission_model.hpp"
 
+#include <algorithm>
 #include <optional>
 
 #include "core/mission/mission_file.hpp"
@@ -33,8 +34,26 @@ std::vector<StateModel> read_states(const Entry& states, bool has_domain) {
   return out;
 }
 
+LossModel read_loss(const Entry& entry, const Component& component) {
+  entry.allow_only({"without", "for_s", "as"});
+  LossModel out;
+  if (const auto services = entry.find("without")) out.without = services->texts();
+  if (out.without.empty()) out.without = {component.owner};
+  const Entry time = entry.at("for_s");
+  out.after = seconds(time);
+  if (out.after <= Duration(0)) time.fail("expected a time above 0 in seconds; correct it");
+  const Entry as = entry.at("as");
+  const std::vector<std::string> words = as.texts();
+  const auto state = words.empty() ? component.states.end()
+                                   : std::ranges::find(component.states, words.front(), &StateModel::name);
+  if (state == component.states.end() || state->active)
+    as.fail("expected [state, argument, …] with an inactive state of '" + component.name + "'; correct it");
+  out.as = {words.front(), {words.begin() + 1, words.end()}};
+  return out;
+}
+
 Component read_component(const Entry& entry, const MissionModel& mission) {
-  entry.allow_only({"name", "robot", "timeline", "owner", "fallback", "states"});
+  entry.allow_only({"name", "robot", "timeline", "owner", "fallback", "states", "lost"});
   const std::string robot = entry.text_or("robot", mission.role.robot);
   const bool own = mission.role.robot.empty() || robot == mission.role.robot;
   Component out{robot,
@@ -53,6 +72,7 @@ Component read_component(const Entry& entry, const MissionModel& mission) {
     entry.complain("component '" + out.name +
                    "' has active states; name the 'fallback' command that ends them");
   }
+  if (const auto lost = entry.find("lost")) lost->attempt([&] { out.lost = read_loss(*lost, out); });
   return out;
 }
 
@@ -107,7 +127,7 @@ WindowModel read_window(const Entry& entry, const MissionModel& mission) {
   return out;
 }
 
-// Of a budget; 0 where nothing is said.
+// Reads an amount of a budget, or returns 0 where none is given.
 double amount_or_none(const Entry& budget, const char* key, double most) {
   const auto entry = budget.find(key);
   if (!entry) return 0;
@@ -166,7 +186,7 @@ ReactorSettings read_executive(const Entry& entry) {
   return out;
 }
 
-// The planner's model, and what it means for the rest of the file.
+// Reads the planner's model, and what it means for the rest of the file.
 void read_model(const Entry& root, MissionModel& out) {
   const auto domain_file = root.find("domain");
   const auto model_file = root.find("model");
@@ -182,7 +202,7 @@ void read_model(const Entry& root, MissionModel& out) {
   out.domain_name = out.domain->name;
 }
 
-// Components of other robots stay until all names are read.
+// Removes the components of other robots, which stay until all names are read.
 void keep_own(std::vector<Component>& components, const std::string& robot) {
   std::erase_if(components,
                 [&](const Component& component) { return !robot.empty() && component.robot != robot; });

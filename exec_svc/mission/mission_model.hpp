@@ -1,6 +1,6 @@
-/// A mission as the reactor sees it: metadata that says which states are inactive and what goals mean, and for
-/// an engine that reads PDDL how observations become facts and actions commands (R43-R46). Read from
-/// mission.yaml; code never names a mission.
+// A mission as the reactor sees it has metadata that say which states are inactive and what goals mean, and
+// for an engine that reads PDDL how observations become facts and actions commands (R43-R46). It is read from
+// mission.yaml; code never names a mission.
 #pragma once
 
 #include <cstdint>
@@ -16,8 +16,8 @@
 #include "core/temporal/flexible_plan.hpp"
 #include "exec_svc/executive/contingency.hpp"
 #include "exec_svc/executive/executive.hpp"
+#include "exec_svc/mission/autonomy_level.hpp"
 #include "exec_svc/mission/executive_role.hpp"
-#include "exec_svc/orders/autonomy_level.hpp"
 
 namespace roci::pddl {
 struct Domain;
@@ -28,51 +28,63 @@ class Findings;
 
 namespace roci::exec::mission {
 
-/// A state of a component. `facts` may hold ?1, ?2, …: the observed state's arguments; * is a family's
-/// object.
+/// Describes a state of a component. `facts` may hold ?1, ?2, … for the observed state's arguments and * for
+/// a family's object.
 struct StateModel {
   std::string name;
   bool active = false;
   std::vector<std::string> facts;
 };
 
+/// What a component counts as when services are gone that it cannot do without.
+struct LossModel {
+  std::vector<std::string> without;  ///< the services; one of them is enough
+  temporal::Duration after{0};       ///< for which a service has been away, from its loss on
+  temporal::State as;                ///< one of the component's inactive states
+};
+
 /// A subsystem; planning starts only when it is in an inactive state, reached by its fallback command (R43,
 /// R44).
 struct Component {
-  std::string robot;  ///< whose subsystem; empty: the owner's only one
+  std::string robot;  ///< robot that has it; empty: the owner's only one
   std::string name;
   std::string timeline;
   std::string owner;
   std::string fallback;
   std::vector<StateModel> states;
+  std::optional<LossModel> lost{};  ///< none: its services are waited for, however long they are away
 };
 
-/// One timeline per object: `prefix` + the object's name. Its states persist and are all inactive.
+/// Describes one timeline per object, named `prefix` + the object's name. Its states persist and are all
+/// inactive.
 struct TimelineFamily {
   std::string prefix;
   std::vector<StateModel> states;
 };
 
+/// Says where a numeric fluent of the PDDL problem gets its value from.
 struct FluentSource {
   std::string fluent;                   ///< "(battery)"
-  std::optional<std::string> timeline;  ///< its newest observed value, or else
+  std::optional<std::string> timeline;  ///< its newest observed value counts, or else
   double value = 0;
-  std::optional<double> last;  ///< instead of the value, before a hard goal is given up
+  std::optional<double> last;  ///< replaces `value` before a hard goal is given up
 };
 
-/// A fact and a truth-valued timeline that come and go by the clock, as predicted.
+/// Describes a fact and a truth-valued timeline that change by the clock, as predicted.
 struct WindowModel {
   std::string fact;                                             ///< empty without a PDDL domain
   std::string timeline;                                         ///< says whether it is open now
   std::vector<std::pair<temporal::Time, temporal::Time>> open;  ///< in mission time, ascending, disjoint
 };
 
+/// Says where a property of an object gets its value from.
 struct PropertySource {
   std::string name;
   std::string text;                     ///< a number, or {argument} in a goal kind
-  std::optional<std::string> timeline;  ///< its newest observed value instead
+  std::optional<std::string> timeline;  ///< its newest observed value replaces the text
 };
 
+/// Describes an object of the mission or of a goal kind, with its properties.
 struct ObjectModel {
   std::string name;
   std::string type;      ///< may be empty without a PDDL domain
@@ -80,10 +92,10 @@ struct ObjectModel {
   std::vector<PropertySource> properties;
 };
 
-/// What a goal's argument is: a number, a word, the id of another goal, or an object of the mission.
+/// Says what a goal's argument is: a number, a word, the id of another goal, or an object of the mission.
 enum class ArgumentKind { number, text, goal, object };
 
-/// Templates with {id}, {robot} (that the goal is for) and {argument}.
+/// Describes a kind of goals by templates with {id}, {robot} (whom the goal is for) and {argument}.
 struct GoalKind {
   std::string name;
   std::string help;
@@ -93,33 +105,34 @@ struct GoalKind {
   std::vector<ObjectModel> objects;
   std::vector<std::string> facts;
   std::vector<std::string> facts_while_open;  ///< hold only until the goal has ended
-  /// Timeline → facts that hold until it is seen.
+  /// Gives for a timeline the facts that hold until it is observed.
   std::vector<std::pair<std::string, std::vector<std::string>>> unobserved;
   std::string window_fact;  ///< empty: the kind has no window
-  /// Achieved when it holds; empty: when all of `goal` are observed.
+  /// Says when a goal is achieved; if it is empty, when all of `goal` are observed.
   temporal::Condition achieved;
-  /// The PDDL goal: all of these conditions, mostly facts. It is what `achieved` stands for where the kind names none.
+  /// Lists the conditions of the PDDL goal, mostly facts. Where the kind names none, they are derived from `achieved`.
   std::vector<std::string> goal;
-  /// Some of `goal` is no fact that is observed by itself, but derived, negated, an alternative or about numbers.
+  /// Says whether some of `goal` is no directly observed fact, but derived, negated, an alternative or about
+  /// numbers.
   bool formula = false;
 };
 
-/// What an action of the plan means as a command. Argument values may hold ?1, ?2.x (a property of that
+/// Says which command an action of the plan becomes. Argument values may hold ?1, ?2.x (a property of that
 /// object).
 struct ActionBinding {
   std::string owner;
-  std::string robot;  ///< of the component
+  std::string robot;  ///< robot of the component
   std::string component;
   std::string command;
   std::vector<std::pair<std::string, std::string>> arguments;
   temporal::LatenessPolicy lateness = temporal::LatenessPolicy::replan;
   std::uint32_t retries = 0;
   temporal::Duration wait_timeout = temporal::no_bound;
-  temporal::Duration retry_within = temporal::no_bound;  ///< after its start
+  temporal::Duration retry_within = temporal::no_bound;  ///< counted from its start
   std::string contingency;                               ///< empty: none
 };
 
-/// What is done when a plan breaks or a step fails (R102); the same plans, other recovery actions.
+/// Says what is done when a plan breaks or a step fails (R102). The plans are the same under each strategy.
 enum class RecoveryStrategy {
   cascade,     ///< push, retry, contingency, then replan, drop goals, and at last the ground
   as_planned,  ///< "static": nothing; the open goals fail
@@ -128,47 +141,49 @@ enum class RecoveryStrategy {
   replan,      ///< replan at once, drop goals, then the ground
 };
 
-/// What goes on while the planner works. In mission.yaml: `paused`, `situated`, `continuous`.
+/// Says what goes on while the planner works; in mission.yaml: `paused`, `situated`, `continuous`.
 enum class Replanning {
   stop_and_replan,  ///< nothing: what runs is cancelled, all components fall back first (R43, R44)
   background,  ///< what runs: it is planned from the state that it will leave, and the plans change there
   continuous,  ///< everything: the engine plans all the time and sends versions of its plan (R66)
 };
 
+/// Says which engine plans for the mission, and what a call may take.
 struct PlannerSettings {
   std::string engine = "temporal_pddl";
-  std::string service;     ///< that hosts it; empty: the mission's planner_svc that serves the robot
+  std::string service;     ///< service that hosts it; empty: the mission's planner_svc that serves the robot
   std::uint64_t work = 0;  ///< evaluations; 0: no bound
   std::uint32_t memory_mb = 0;
   temporal::Duration wall{0};
   temporal::Duration allowance = temporal::seconds(5);  ///< a plan's origin lies this long after the request
-  /// Mission time after which a call counts as lost.
+  /// Bounds the mission time until a call counts as lost.
   temporal::Duration reply_timeout = temporal::seconds(120);
 };
 
+/// Says how the reactor and the executive act: time limits, retries, recovery and what is kept.
 struct ReactorSettings {
   temporal::Duration ack_timeout = temporal::seconds(5);
-  temporal::Duration fallback_timeout = temporal::seconds(60);  ///< for components to become inactive
-  /// An owner that died counts as lost, and its commands as failed,
-  /// when it has not come back so long after (0: at once).
+  temporal::Duration fallback_timeout = temporal::seconds(60);  ///< time for components to become inactive
+  /// Delays when an owner that died counts as lost, and its commands as failed (0: at once).
   temporal::Duration owner_return{0};
   std::uint32_t replan_limit = 50;
-  std::uint32_t call_retries = 5;  ///< planner calls that failed for want of a service
-  /// Failed commands of one component in a row; then their goals are given up.
+  std::uint32_t call_retries = 5;  ///< bounds the planner calls that fail for want of a service
+  /// Bounds the failed commands of one component in a row; then their goals are given up.
   std::uint32_t failure_limit = 5;
-  temporal::Duration failure_pause = temporal::seconds(30);  ///< after the second of them; doubles with each
-  temporal::Duration failure_pause_max = temporal::seconds(600);  ///< but is never longer
-  /// Planner calls spent on which hard goals give way when not even those all fit,
-  /// so that the fewest do; 0: the newest does.
+  temporal::Duration failure_pause = temporal::seconds(30);  ///< after the second failure; doubles with each
+  temporal::Duration failure_pause_max = temporal::seconds(600);  ///< bounds that pause
+  /// Bounds the planner calls that find the fewest hard goals to give up when not even those all fit; 0: the
+  /// newest goes.
   std::uint32_t hard_goal_trials = 0;
-  bool keep_inputs = true;  ///< of the whole mission in the journal; false: since the last anchor
-  /// Where inputs are not kept: so many of the newest traces, events and decisions are, and all since the last anchor.
+  bool keep_inputs = true;  ///< the journal keeps all inputs; false: those since the last anchor
+  /// Where inputs are not kept, counts the newest traces, events and decisions that are kept beside all since the last
+  /// anchor.
   std::uint32_t kept_records = 20'000;
   RecoveryStrategy recovery = RecoveryStrategy::cascade;
   executive::StartPolicy start = executive::StartPolicy::earliest;
   Replanning replanning = Replanning::stop_and_replan;
-  orders::AutonomyLevel autonomy = orders::AutonomyLevel::e4;  ///< with which the mission begins
-  temporal::Duration standby_term = temporal::seconds(2);      ///< wall time; see standby/lease.hpp
+  AutonomyLevel autonomy = AutonomyLevel::e4;              ///< with which the mission begins
+  temporal::Duration standby_term = temporal::seconds(2);  ///< wall time; see standby/lease.hpp
   /// Not of the mission, but of the scenario's links (executive::ExecutiveSettings).
   std::map<std::string, temporal::Duration> round_trips{};
 
@@ -176,12 +191,13 @@ struct ReactorSettings {
   bool plans_continuously() const { return replanning == Replanning::continuous; }
 };
 
-/// What the ground may change in flight by an order.
+/// Says what the ground may change in flight by an order.
 struct GroundModel {
   std::vector<std::string> values;   ///< timelines that the ground owns
   std::vector<std::string> uploads;  ///< places of the mission file, e.g. "contingencies.wipe-lens"
 };
 
+/// Holds all that mission.yaml says to one of the mission's executives.
 struct MissionModel {
   std::string name;
   ExecutiveRole role;
@@ -207,7 +223,7 @@ struct MissionModel {
 /// Returns the names of the objects of a type of the domain that every problem has, and of its constants.
 std::vector<std::string> objects_of_type(const MissionModel& mission, const std::string& type);
 
-/// The services that execute the commands of its components.
+/// Returns the services that execute the commands of the mission's components.
 std::set<std::string> owners_of(const MissionModel& mission);
 
 /// Reads a mission file (or the mission.yaml of a folder) for one of its executives. In names of timelines

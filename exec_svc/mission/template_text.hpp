@@ -1,5 +1,5 @@
-/// Facts and templates of facts as mission files write them: ?1 (a position), * (a family's object), {name}
-/// (a goal's argument).
+// This file fills facts and templates of facts as mission files write them: ?1 (a position), * (a family's
+// object), {name} (a goal's argument).
 #pragma once
 
 #include <map>
@@ -14,7 +14,7 @@ std::string fill_star(const std::string& text, const std::string& object);
 /// Replaces {name} by its value; an unknown name stays as it is.
 std::string fill_names(const std::string& text, const std::map<std::string, std::string>& values);
 
-/// "(at place-1)" → {"at", "place-1"}.
+/// Splits a fact into its words: "(at place-1)" → {"at", "place-1"}.
 std::vector<std::string> words_of(const std::string& fact);
 
 }  // namespace roci::exec::mission

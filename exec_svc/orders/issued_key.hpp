@@ -1,4 +1,4 @@
-/// Who gave an order or an answer, under a name of the giver's choice.
+// An issued key says who gave an order or an answer.
 #pragma once
 
 #include <compare>
@@ -6,6 +6,7 @@
 
 namespace roci::exec::orders {
 
+/// Names an order or an answer by its giver and an id that the giver chose.
 struct IssuedKey {
   std::string issuer;
   std::string id;

@@ -10,11 +10,6 @@ const char* to_string(OrderKind kind) {
   return names.at(static_cast<std::size_t>(kind));
 }
 
-const char* to_string(AutonomyLevel level) {
-  constexpr std::array names{"E1", "E2", "E3", "E4"};
-  return names.at(static_cast<std::size_t>(level));
-}
-
 const char* to_string(OrderStage stage) {
   constexpr std::array names{"received", "accepted", "refused", "applied"};
   return names.at(static_cast<std::size_t>(stage));

@@ -1,4 +1,4 @@
-/// Orders from the ground as plain values: what is ordered, and where an order stands.
+// Orders from the ground are plain values here: what is ordered, and where an order stands.
 #pragma once
 
 #include <cstdint>
@@ -6,13 +6,13 @@
 
 #include "core/temporal/value.hpp"
 #include "exec_svc/goals/goal_set.hpp"
-#include "exec_svc/orders/autonomy_level.hpp"
+#include "exec_svc/mission/autonomy_level.hpp"
 #include "exec_svc/orders/issued_key.hpp"
 
 namespace roci::exec::orders {
 
-/// Has the order of OrderKind in idl/order.idl, and one more: a command goes over the wire as an
-/// approval with its content.
+/// Names what an order asks for, in the order of OrderKind in idl/order.idl, and one more: a command goes
+/// over the wire as an approval with content.
 enum class OrderKind {
   hold,       ///< nothing new starts; with a target: this activity does not
   release,    ///< ends the hold of the same target
@@ -26,10 +26,10 @@ enum class OrderKind {
   safe,       ///< the robot is made safe, and held
   command,    ///< the target, a component, carries out the content: its name, and arguments as "name=value"
 };
-/// "hold", "release", …, "set" for set_value.
+/// Returns "hold", "release", …, and "set" for set_value.
 const char* to_string(OrderKind kind);
 
-/// An order as it came in; which of the members count depends on its kind.
+/// Holds an order as it came in; which of the members count depends on its kind.
 struct Order {
   IssuedKey key;
   goals::SampleId sample;
@@ -37,16 +37,17 @@ struct Order {
   std::string target;
   temporal::Value content;
   std::string choice;
-  AutonomyLevel level = AutonomyLevel::e4;
+  mission::AutonomyLevel level = mission::AutonomyLevel::e4;
   std::string upload;
   std::uint32_t checksum = 0;  ///< CRC-32 of the upload
 };
 
-/// Has the order of OrderStage in idl/order.idl.
+/// Says how far an order has come, in the order of OrderStage in idl/order.idl.
 enum class OrderStage { received, accepted, refused, applied };
-/// "received", …
+/// Returns "received", …: the name above.
 const char* to_string(OrderStage stage);
 
+/// Says where an order stands.
 struct OrderStatus {
   IssuedKey key;
   goals::SampleId answers;  ///< the newest sample that brought it

@@ -1,4 +1,4 @@
-/// Every order that came, with where it stands: an order is given once.
+// The order book keeps every order that came, with where it stands.
 #pragma once
 
 #include <map>
@@ -10,17 +10,18 @@
 
 namespace roci::exec::orders {
 
+/// Guarantees that an order is given once, whoever repeats it, and keeps the newest stage of each.
 class OrderBook {
  public:
-  /// Enters an order. True: it is new and has been received. An order whose key is known is answered with
-  /// where it stands, and not given again; a sample that was heard before is not even answered.
+  /// Enters an order. Returns whether it is new, and thus received. An order whose key is known is answered
+  /// with where it stands, and not given again; a sample that was heard before is not even answered.
   bool receive(const Order& order);
-  /// The next stage of an order.
+  /// Moves an order to its next stage.
   void move(const IssuedKey& key, OrderStage stage, const std::string& reason, std::uint32_t plan_version);
 
-  /// The stages since the last call, in their order.
+  /// Returns the stages since the last call, in their order.
   std::vector<OrderStatus> take_changes();
-  /// The newest stage of every order.
+  /// Returns the newest stage of every order.
   std::vector<OrderStatus> all() const;
 
   template <class Archive, class Self>

@@ -27,7 +27,7 @@ namespace {
 
 using temporal::Time;
 
-// Problems hold numbers to six decimals: a microsecond, a micrometre.
+// Rounds to the six decimals of numbers in problems: a microsecond, a micrometre.
 double rounded(double value) {
   const std::string text = number_text(value);
   double out = value;
@@ -49,14 +49,14 @@ pddl::Atom atom_of(const std::string& fact) {
   return out;
 }
 
-// A fact that becomes true or false after the origin.
+// Holds a fact that becomes true or false after the origin.
 struct Change {
   Time at;  // from the origin
   std::string fact;
   bool holds;
 };
 
-// The problem while it is put together.
+// Holds the problem while it is put together.
 class Draft {
  public:
   Draft(const Situation& situation, Reserves reserves) : situation_(situation), reserves_(reserves) {}
@@ -158,8 +158,8 @@ class Draft {
     declared_.insert(words.begin() + 1, words.end());
   }
 
-  // Objects that exist but are not declared (those of finished goals) take their facts with them; a word that
-  // is no object of the mission is one of the domain's constants.
+  // Returns whether all objects of the fact are declared. Objects that exist undeclared are those of
+  // finished goals; a word that is no object of the mission is one of the domain's constants.
   bool is_declared(const std::string& fact) const {
     const auto words = words_of(fact);
     return std::all_of(words.begin(), words.end(), [&](const std::string& word) {

@@ -1,4 +1,4 @@
-/// A problem for engines that read PDDL, built as core/pddl's tree.
+// This file builds a problem for engines that read PDDL as core/pddl's tree.
 #pragma once
 
 #include <string>
@@ -8,11 +8,11 @@
 
 namespace roci::exec::problem {
 
-/// Text and objects; the mission has a domain. Objects of finished goals that nothing names are left out, and
-/// with them the facts that name them.
+/// Writes text and objects of the problem; the mission must have a domain. Objects of finished goals that
+/// nothing names are left out, together with the facts that name them.
 Problem write_pddl_problem(const Situation& situation, const std::string& name, Reserves reserves);
 
-/// The same as a tree of all that is known at the origin, whether or not the domain can take all of it.
+/// Builds the tree of all that is known at the origin, including what the domain cannot take.
 pddl::Problem pddl_tree(const Situation& situation, Reserves reserves);
 
 }  // namespace roci::exec::problem

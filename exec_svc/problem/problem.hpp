@@ -1,4 +1,4 @@
-/// A planning problem as plain values: as text for engines that read PDDL, as timelines for all others.
+// A planning problem is made of plain values: text for engines that read PDDL, timelines for all others.
 #pragma once
 
 #include <map>
@@ -11,21 +11,22 @@
 
 namespace roci::exec::problem {
 
+/// Describes an object of the problem.
 struct ProblemObject {
   std::string name;
   std::string type;
   std::vector<temporal::Property> properties;
 };
 
-/// A value that a timeline is known to take at a mission time to come.
+/// Holds a value that a timeline is known to take at a future mission time.
 struct PredictedValue {
   std::string timeline;
   temporal::Time at{0};
   temporal::Value value;
 };
 
-/// A goal as an engine sees it. In a PDDL problem the timelines of the condition are facts, "(sent image-a)", or whole
-/// conditions that timelines cannot say, "(exists (?m - module) …)".
+/// Describes a goal as an engine sees it. In a PDDL problem the timelines of the condition are facts, "(sent
+/// image-a)", or whole conditions that timelines cannot express, "(exists (?m - module) …)".
 struct ProblemGoal {
   goals::GoalKey key;
   temporal::Condition achieved;
@@ -37,36 +38,39 @@ struct ProblemGoal {
   temporal::Time closes{0};                       ///< mission time; 0: none
 };
 
-/// A part of what is known that the problem does without, since with it the problem would be invalid.
+/// Names a known part that is left out of the problem because it would make the problem invalid.
 struct LeftOut {
   std::string part;  ///< "(have-image image-7)"
   std::string why;   ///< in plain words
 };
 
-/// A goal that makes the problem invalid.
+/// Names a goal that makes the problem invalid.
 struct UnusableGoal {
   goals::GoalKey key;
   std::string why;  ///< in plain words
 };
 
+/// Holds all that an engine needs to plan: the state at the origin, what is predicted, the goals and the
+/// objects.
 struct Problem {
   std::string text;                              ///< in PDDL; empty without a domain
   std::map<std::string, temporal::Value> state;  ///< timelines at the origin; empty with a domain
   std::vector<PredictedValue> predictions;       ///< in order of time; empty with a domain
   std::vector<ProblemGoal> goals;                ///< open ones, in order of arrival
   std::vector<ProblemObject> objects;
-  // Found while it is written, told at once, and no part of the problem: the archive passes over them.
+  // The rest is found while the problem is written, and reported at once. It is no part of the problem, and
+  // the archive omits it.
   std::vector<LeftOut> left_out;
   std::vector<UnusableGoal> unusable_goals;
 };
 
-/// What the mission keeps back for waiting and surprises (FluentSource::last).
+/// Says whether the mission's reserves for waiting and surprises may be used (FluentSource::last).
 enum class Reserves { kept, spent };
 
-/// What will have changed before the problem begins, by fact, fluent or timeline.
+/// Holds what will have changed before the problem begins, by fact, fluent or timeline.
 struct Forecast {
-  std::map<std::string, temporal::Value> values{};  ///< that they will have
-  std::map<std::string, double> changes{};          ///< by which numbers will have changed
+  std::map<std::string, temporal::Value> values{};  ///< values that they will have
+  std::map<std::string, double> changes{};          ///< amounts by which numbers will have changed
 };
 
 }  // namespace roci::exec::problem

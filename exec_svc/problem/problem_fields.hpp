@@ -1,4 +1,4 @@
-/// The fields of problems for the archive, each type once, for writing and reading.
+// This file lists the fields of problems for the archive, each type once, for writing and reading.
 #pragma once
 
 #include "exec_svc/archive/plan_fields.hpp"

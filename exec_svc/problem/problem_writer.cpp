@@ -1,6 +1,8 @@
 #include "exec_svc/problem/problem_writer.hpp"
 
+#include <algorithm>
 #include <charconv>
+#include <optional>
 
 #include "core/pddl/printer.hpp"
 #include "exec_svc/mission/condition_entry.hpp"
@@ -39,7 +41,7 @@ temporal::Condition all_facts(const std::vector<std::string>& facts) {
   return parts.size() == 1 ? parts.front() : temporal::all_of(parts);
 }
 
-// PDDL knows no exponents.
+// Writes numbers without exponents, which PDDL lacks.
 void write_numbers_out(const GoalKind& kind, std::map<std::string, std::string>& values) {
   for (const auto& [name, argument] : kind.arguments) {
     std::string& text = values[name];
@@ -51,14 +53,14 @@ void write_numbers_out(const GoalKind& kind, std::map<std::string, std::string>&
   }
 }
 
-// A condition over timelines; what these cannot say, such as quantifiers, is one fact by its own text, as the engine
-// prints it when it says what is out of reach.
+// Returns the condition over timelines; what these cannot express, such as quantifiers, is one fact by its own
+// text, as the engine prints it when it names what is out of reach.
 temporal::Condition condition_of(const pddl::Condition& formula) {
   temporal::Condition out = mission::over_timelines(formula);
   return out.empty() ? temporal::compare(pddl::print(formula), temporal::ConditionOp::eq, true) : out;
 }
 
-// The kind's PDDL goal over timelines.
+// Returns the kind's PDDL goal over timelines.
 temporal::Condition pddl_goal(const MissionModel& mission, const GoalRequest& goal) {
   const GoalKind* kind = kind_of(mission, goal);
   if (kind == nullptr || !kind->formula) return all_facts(goal_facts(mission, goal));
@@ -73,6 +75,35 @@ ProblemGoal problem_goal(const MissionModel& mission, const GoalRequest& goal) {
           goal.importance, goal.utility,
           goal.priority,   goal.preferred,
           goal.opens,      goal.closes};
+}
+
+bool is_judged_by_formula(const MissionModel& mission, const GoalRequest& goal) {
+  const GoalKind* kind = kind_of(mission, goal);
+  return kind != nullptr && kind->formula && kind->achieved.empty();
+}
+
+// Which part of domain or goal ranges over too many objects to be judged; empty: none does.
+std::string unjudged_part(const pddl::Problem& known, const MissionModel& mission, const GoalRequest& goal) {
+  ClosedWorld world(*mission.domain, known);
+  for (const std::string& fact : goal_facts(mission, goal)) world.truth_of(mission::read_goal_formula(fact));
+  return world.given_up_at();
+}
+
+// A goal whose end nobody could see would never end.
+void name_unjudged_goals(const Situation& situation, Problem& out) {
+  std::optional<pddl::Problem> known;
+  for (const GoalRecord* record : situation.goals.open()) {
+    const GoalRequest& goal = record->request;
+    if (!is_judged_by_formula(situation.mission, goal)) continue;
+    if (std::ranges::find(out.unusable_goals, goal.key, &UnusableGoal::key) != out.unusable_goals.end())
+      continue;
+    if (!known) known = pddl_tree(situation, Reserves::kept);
+    const std::string part = unjudged_part(*known, situation.mission, goal);
+    if (!part.empty())
+      out.unusable_goals.push_back(
+          {goal.key, "whether it holds takes over " + std::to_string(ClosedWorld::kMostSteps) +
+                         " steps to tell: " + part + " ranges over too many objects"});
+  }
 }
 
 }  // namespace
@@ -99,13 +130,11 @@ bool is_achieved(const MissionModel& mission, const Beliefs& beliefs, const Goal
 
 bool is_achieved(const MissionModel& mission, const Beliefs& beliefs, const GoalSet& goals,
                  const GoalRequest& goal, temporal::Time now) {
-  const GoalKind* kind = kind_of(mission, goal);
-  if (kind == nullptr || !kind->formula || !kind->achieved.empty())
-    return is_achieved(mission, beliefs, goal);
+  if (!is_judged_by_formula(mission, goal)) return is_achieved(mission, beliefs, goal);
   if (!beliefs.unobserved().empty()) return false;
   const Forecast none;
   const pddl::Problem known = pddl_tree({mission, beliefs, goals, now, now, none}, Reserves::kept);
-  const ClosedWorld world(*mission.domain, known);
+  ClosedWorld world(*mission.domain, known);
   for (const std::string& fact : goal_facts(mission, goal))
     if (world.truth_of(mission::read_goal_formula(fact)) != temporal::Truth::yes) return false;
   return true;
@@ -117,6 +146,7 @@ Problem write_problem(const MissionModel& mission, const Beliefs& beliefs, const
   const Situation situation{mission, beliefs, goals, now, origin, forecast};
   Problem out = mission.has_domain() ? write_pddl_problem(situation, name, reserves)
                                      : write_timeline_problem(situation);
+  if (mission.domain) name_unjudged_goals(situation, out);
   for (const GoalRecord* record : goals.open()) out.goals.push_back(problem_goal(mission, record->request));
   return out;
 }

@@ -1,4 +1,4 @@
-/// What a problem is written from.
+// A situation is what a problem is written from.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@
 
 namespace roci::exec::problem {
 
-/// References to what outlives the writing.
+/// Refers to what a problem is written from, all of which must outlive the writing.
 struct Situation {
   const mission::MissionModel& mission;
   const beliefs::Beliefs& beliefs;
@@ -21,25 +21,25 @@ struct Situation {
   const Forecast& forecast;
 };
 
-/// Part of a predicted window that a plan from the origin on can meet.
+/// Holds a part of a predicted window that a plan from the origin on can meet.
 struct OpenInterval {
   temporal::Time from;
   temporal::Time to;
 };
 
-/// The intervals of a window that end after the origin; one that should be open now and was seen closed is left
-/// out.
+/// Returns the intervals of a window that end after the origin, without one that should be open now but was
+/// seen closed.
 std::vector<OpenInterval> intervals_ahead(const mission::WindowModel& window, const Situation& situation);
 
-/// The objects of a goal's kind, with the goal's own names and values.
+/// Returns the objects of a goal's kind, with the goal's own names and values.
 std::vector<mission::ObjectModel> objects_of(const mission::MissionModel& mission,
                                              const goals::GoalRequest& goal);
 
-/// The properties of an object, observed ones with their newest values.
+/// Returns the properties of an object, observed ones with their newest values.
 std::vector<temporal::Property> properties_of(const mission::ObjectModel& object,
                                               const beliefs::Beliefs& beliefs);
 
-/// A number as owners of functions and problems read it: six decimals.
+/// Formats a number as owners of functions and problems read it: with six decimals.
 std::string number_text(double value);
 
 }  // namespace roci::exec::problem

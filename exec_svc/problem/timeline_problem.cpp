@@ -25,7 +25,8 @@ std::map<std::string, Value> state_at_origin(const Situation& situation) {
   return out;
 }
 
-// What is seen now counts, but not beyond a closing that comes before the origin.
+// Returns whether a window that is open now closes before the origin, beyond which its present observation
+// does not count.
 bool closes_until_origin(const WindowModel& window, const Situation& situation) {
   return std::ranges::any_of(window.open, [&](const auto& interval) {
     return interval.first <= situation.now && situation.now < interval.second &&

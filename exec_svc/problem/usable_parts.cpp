@@ -9,10 +9,10 @@
 namespace roci::exec::problem {
 namespace {
 
-// Why the problem is invalid, as the planner will read it; empty: it is not.
+// Returns why the problem is invalid as the planner will read it, or an empty text if it is valid.
 std::string fault_of(const pddl::Problem& tree, const pddl::Domain& domain) {
   try {
-    // What the planner would pass over is left out by its name, too.
+    // What the planner would ignore is left out by name, too.
     for (const pddl::Diagnostic& warning : pddl::load_problem(print(tree), "problem", domain).warnings)
       if (warning.departure == pddl::Departure::undeclared_function) return warning.message;
     return "";

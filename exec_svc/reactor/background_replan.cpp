@@ -33,8 +33,8 @@ Remainder remainder_of(const PlanActivity& activity, Time started, Time now) {
   return {&activity, ends, whole > 0 ? static_cast<double>((ends - now).count()) / whole : 0.0, ends - now};
 }
 
-/// Adds what the rest of an activity will change. Amounts of fluents come little by little over an activity,
-/// whatever the domain says for simplicity.
+/// Adds what the rest of an activity will change. Amounts of fluents change gradually over an activity,
+/// though the domain simplifies that.
 void add_effects(const Remainder& remainder, Forecast& forecast) {
   using enum temporal::ImpactWhen;
   for (const temporal::ImpactWhen moment : {at_start, during, at_end}) {
@@ -50,7 +50,7 @@ void add_effects(const Remainder& remainder, Forecast& forecast) {
   }
 }
 
-/// What has come about differently; empty if nothing has.
+/// Returns what has come about differently, or an empty text if nothing has.
 std::string mismatch(const Forecast& forecast, const beliefs::Beliefs& beliefs) {
   for (const auto& [name, foreseen] : forecast.values) {
     const auto value = beliefs.lookup(name);
@@ -153,7 +153,7 @@ void BackgroundReplan::act_on_failure(Time now, const PlanReply& reply) {
   }
 }
 
-/// One goal less than was asked for: if the running plan serves all others, it goes on.
+/// Lets the running plan go on with one goal less, if it serves all others.
 void BackgroundReplan::keep_plan(Time now) {
   MissionState& state = parts_.state;
   const auto open = state.goals.open();
@@ -171,7 +171,7 @@ void BackgroundReplan::keep_plan(Time now) {
   }
 }
 
-/// A plan that is wanted meanwhile is asked for at once, and for all goals that are open.
+/// Waits for the next call. A plan that is wanted meanwhile is asked for at once, for all open goals.
 void BackgroundReplan::await_retry(Time now) {
   MissionState& state = parts_.state;
   retry_ = !state.replan_wanted && now < parts_.call.not_before();

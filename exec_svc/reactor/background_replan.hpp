@@ -1,7 +1,4 @@
-/// What runs goes on while the planner works. The problem is written for the state that the running
-/// activities will leave; nothing else starts meanwhile; the plans change when they have ended, if that state
-/// has come about. Where the old plan must not go on, the robot stops as under StopAndReplan. (`replanning:
-/// situated`)
+// Background replanning (`replanning: situated`) lets what runs go on while the planner works.
 #pragma once
 
 #include <optional>
@@ -11,6 +8,9 @@
 
 namespace roci::exec::reactor {
 
+/// Plans from the state that the running activities will leave, while nothing else starts. The plans change
+/// when those activities have ended, if that state has come about. Where the old plan must not go on, the
+/// robot stops as under StopAndReplan.
 class BackgroundReplan final : public ReplanningPolicy {
  public:
   explicit BackgroundReplan(const PolicyParts& parts) : parts_(parts), stop_(parts) {}
@@ -21,11 +21,11 @@ class BackgroundReplan final : public ReplanningPolicy {
   void restore(archive::Reader& archive) override { stop_.restore(archive); }
 
  private:
-  /// A planner call during which what runs goes on. It exists only while a plan is executed.
+  /// Holds a planner call during which what runs goes on. It exists only while a plan is executed.
   struct Call {
-    problem::Forecast forecast;  ///< of the state that the running activities leave
+    problem::Forecast forecast;  ///< state that the running activities leave
     std::optional<PlanReply> reply;
-    std::optional<temporal::Time> observed_by;  ///< until then that state may still come to be observed
+    std::optional<temporal::Time> observed_by;  ///< time until which that state may still be observed
   };
 
   bool possible() const;
@@ -40,8 +40,8 @@ class BackgroundReplan final : public ReplanningPolicy {
   PolicyParts parts_;
   StopAndReplan stop_;
   std::optional<Call> call_;
-  /// The planner is to be asked again once it may be (PlannerCall::not_before), and what the plan has goes on until
-  /// then. It is so only while a plan is executed.
+  /// Says, only while a plan is executed, that the planner is to be asked again at PlannerCall::not_before; the
+  /// plan goes on until then.
   bool retry_ = false;
 };
 

@@ -1,6 +1,6 @@
-/// Whether what is so now leaves the rest of a plan possible: a state that somebody else changed, and that
-/// nothing in the plan brings back, is missed long before the activity that needs it is due (conflicts seen
-/// ahead, R73–R76).
+// The conflict monitor checks whether the present state leaves the rest of a plan possible: a state that
+// somebody else changed, and that nothing in the plan restores, is noticed long before the activity that
+// needs it is due (conflicts seen ahead, R73–R76).
 #pragma once
 
 #include <cstddef>
@@ -17,30 +17,30 @@
 
 namespace roci::exec::reactor {
 
-/// For every timeline that the plan's pre conditions compare with a truth or a state. An alarm is raised only
-/// if no other activity that waits or runs assigns a value that would do, wherever it stands in the plan, and
-/// only if it lasts: observations may follow the end of an activity. What may be skipped, is an open choice,
-/// or is pushed until somebody else makes it possible demands nothing. A change of a timeline costs the
-/// activities that touch it.
+/// Watches every timeline that the plan's pre conditions compare with a truth or a state. It raises an alarm
+/// only if no other waiting or running activity assigns a suitable value, wherever it stands in the plan, and
+/// only if the conflict lasts, since observations may follow the end of an activity. An activity that may be
+/// skipped, is an open choice, or is pushed until somebody else makes it possible demands nothing. A change
+/// of a timeline costs time in the number of activities that touch it.
 class ConflictMonitor {
  public:
   ConflictMonitor() = default;
-  ConflictMonitor(ConflictMonitor&&) = default;  ///< A copy would point into the original.
+  ConflictMonitor(ConflictMonitor&&) = default;  ///< movable only: a copy would point into the original
   ConflictMonitor& operator=(ConflictMonitor&&) = default;
-  /// At first all activities wait. `foreseen`: timelines that change by themselves, as their timed windows
-  /// say; no alarm for them. `lasting`: for how long a conflict must stand.
+  /// Starts with all activities waiting. `foreseen` are timelines that change by themselves, as their timed
+  /// windows say; they raise no alarm. `lasting` is how long a conflict must last.
   ConflictMonitor(const temporal::FlexiblePlan& plan, const std::set<std::string>& foreseen,
                   temporal::Duration lasting);
 
-  /// The plan is a new version of the one that `before` watched: what it saw stands, and since when.
+  /// Takes over what `before` saw, and since when, for a plan that is a new version of the one it watched.
   void continue_from(const ConflictMonitor& before);
 
   void observe(const std::string& timeline, const temporal::Value& value);
   void change(const std::string& activity, temporal::ActivityState state);
 
-  /// The conflict of the earliest activity that stands for long enough.
+  /// Returns the conflict of the earliest activity, among those that have lasted long enough.
   std::optional<PredictedConflict> conflict(temporal::Time now);
-  /// When a conflict that is known will have stood for long enough.
+  /// Returns when a known conflict will have lasted long enough.
   std::optional<temporal::Time> next_check() const;
 
  private:

@@ -1,4 +1,4 @@
-/// What a condition asks of single timelines.
+// This file finds what a condition asks of single timelines.
 #pragma once
 
 #include <vector>
@@ -7,8 +7,9 @@
 
 namespace roci::exec::reactor {
 
-/// The comparisons that must all hold: the condition itself, or the parts of its conjunction. What lies below
-/// an alternative or a negation is no demand by itself; nothing that follows such a part is told.
+/// Returns the comparisons that must all hold: the condition itself, or the parts of its conjunction. What
+/// lies below an alternative or a negation is no demand by itself; the parts that follow it are left out as
+/// well.
 std::vector<temporal::ConditionNode> conjuncts(const temporal::Condition& condition);
 
 }  // namespace roci::exec::reactor

@@ -41,13 +41,13 @@ void ContinuousPlanning::take_delta(Time now, const temporal::PlanDelta& delta) 
   }
 }
 
-/// Why the delta is not taken; else `next` is the plan with it.
+/// Returns why the delta is not taken; else `next` is the plan with it.
 std::string ContinuousPlanning::fault_of(Time now, const temporal::PlanDelta& delta,
                                          FlexiblePlan& next) const {
   const mission::MissionModel& mission = *parts_.state.mission;
   if (!takes_plans()) return "the robot is not ready for a plan";
   if (parts_.state.phase == MissionPhase::executing &&
-      parts_.state.authority.level() != orders::AutonomyLevel::e4)
+      parts_.state.authority.level() != mission::AutonomyLevel::e4)
     return std::string("the running plan stays as it is at autonomy level ") +
            to_string(parts_.state.authority.level());
   if (delta.added.engine != mission.planner.engine)
@@ -77,7 +77,7 @@ void ContinuousPlanning::adopt_version(Time now, FlexiblePlan plan) {
   parts_.plan.begin(now);
 }
 
-/// A goal is planned while some activity serves it.
+/// Marks goals as planned while some activity serves them.
 void ContinuousPlanning::note_planned(const FlexiblePlan& plan) {
   std::set<std::string> served;
   for (const temporal::PlanActivity& activity : plan.activities)
@@ -92,10 +92,10 @@ void ContinuousPlanning::note_planned(const FlexiblePlan& plan) {
   }
 }
 
-/// Where no goal is open any more the plan ends with the commands that run or are committed: what has none, as a load
-/// that is always on or a wait for the ground, would keep the mission open for as long as it was planned; and so would
-/// a command behind such a wait, or one that waits itself for what never comes, as of an empty battery: none is awaited
-/// for longer than a fallback after its planned start. Returns whether that is so.
+/// Ends the plan, once no goal is open any more, with the commands that run or are committed. Activities without a
+/// command, such as a load that is always on or a wait for the ground, would keep the mission open for as long as they
+/// were planned. So would a command behind such a wait, or one that waits for what never comes, as with an empty
+/// battery: none is awaited for longer than a fallback after its planned start. Returns whether the plan has ended.
 bool ContinuousPlanning::end_with_goals(Time now) {
   MissionState& state = parts_.state;
   if (state.goals.all().empty() || !state.goals.open().empty()) return false;
@@ -135,14 +135,14 @@ void ContinuousPlanning::monitor(Time now) {
   if (state.phase == MissionPhase::executing && parts_.plan.invalid()) state.wake_at(repair_deadline_);
 }
 
-/// A broken plan waits for the version that repairs it, as long as for a planner's reply. Nothing new starts.
+/// Waits for the version that repairs a broken plan, as long as for a planner's reply. Nothing new starts.
 void ContinuousPlanning::await_repair(Time now, const std::string& reason) {
   repair_deadline_ = now + parts_.state.mission->planner.reply_timeout;
   parts_.plan.hold_starts(true);
   parts_.recovery.break_plan(now, reason);
 }
 
-/// The engine is told of a conflict once, in words that stay as long as it is about the same activity.
+/// Tells the engine of a conflict once, in words that stay as long as it concerns the same activity.
 void ContinuousPlanning::check_ahead(Time now) {
   const auto conflict = parts_.plan.conflict_ahead(now);
   const std::string activity = conflict ? conflict->activity : "";
@@ -156,7 +156,8 @@ void ContinuousPlanning::check_ahead(Time now) {
                       parts_.plan.name() + ": " + conflict->reason + "; the engine is told");
 }
 
-/// What ended is no base for deltas: the next plan comes whole, and without what was done.
+/// Forgets a plan that has ended, which is no base for deltas: the next plan comes whole, without what was
+/// done.
 void ContinuousPlanning::forget_ended_plan(Time now) {
   const executive::Executive& executive = parts_.plan.executive();
   const OutcomeKind kind = executive.outcome().kind;

@@ -1,7 +1,5 @@
-/// The engine plans all the time (R66, R76-R81): it hears goals, observations and steps itself and sends
-/// versions of its plan. What is committed in one version is executed, whatever the next ones say. Conflicts
-/// are looked for in all that waits, to the end of the plan: the engine is told, and what is committed is
-/// left as it is; if that is what the conflict is about, the recovery policy follows.
+// Continuous planning serves an engine that plans all the time (R66, R76-R81): it hears goals, observations
+// and steps itself and sends versions of its plan.
 #pragma once
 
 #include <optional>
@@ -12,12 +10,15 @@
 
 namespace roci::exec::reactor {
 
+/// Executes what is committed in one version, whatever the next ones say. Conflicts are looked for in all
+/// that waits, to the end of the plan: the engine is told, and what is committed stays as it is; if the
+/// conflict is about that, the recovery policy follows.
 class ContinuousPlanning final : public ReplanningPolicy {
  public:
   explicit ContinuousPlanning(const PolicyParts& parts) : parts_(parts) {}
 
   void step(temporal::Time now, const ReactorInputs& inputs) override;
-  void resume(temporal::Time) override {}  ///< the engine hears of the restart by the receipt
+  void resume(temporal::Time) override {}  ///< the receipt tells the engine of the restart
   const PlanReceipt* receipt() const override { return &receipt_; }
   void save(archive::Writer& archive) const override;
   void restore(archive::Reader& archive) override;
@@ -40,7 +41,7 @@ class ContinuousPlanning final : public ReplanningPolicy {
   PolicyParts parts_;
   PlanReceipt receipt_;
   std::optional<PlanReceipt> reported_receipt_;
-  std::string conflicting_activity_;           ///< of the conflict in the receipt
+  std::string conflicting_activity_;           ///< activity of the conflict in the receipt
   temporal::Time repair_deadline_{0};          ///< for the version that repairs a broken plan
   std::vector<std::string> ended_activities_;  ///< of the engine's plan that ended last, sorted
 };

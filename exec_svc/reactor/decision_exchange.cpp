@@ -29,7 +29,7 @@ std::vector<DecisionAnswer> DecisionExchange::admit(const std::vector<GivenAnswe
   return admitted;
 }
 
-/// `taken`: the running plan has to judge it.
+/// Returns `taken` if the running plan has to judge the answer.
 AnswerResult DecisionExchange::fault_of(const GivenAnswer& answer) const {
   if (receipts_.contains(answer.key))
     return {AnswerOutcome::repeated, "an answer of this id was given before; give another one another id"};

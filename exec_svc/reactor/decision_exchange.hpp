@@ -1,5 +1,4 @@
-/// The decisions that plans have asked for, and the answers to them: each answer is taken at most once, from
-/// whoever is asked, and every answer has a receipt (R131).
+// The decision exchange keeps the decisions that plans have asked for, and the answers to them.
 #pragma once
 
 #include <map>
@@ -10,20 +9,21 @@
 
 namespace roci::exec::reactor {
 
+/// Takes each answer at most once, from whoever is asked, and gives every answer a receipt (R131).
 class DecisionExchange {
  public:
-  /// Receives answers. Those that the running plan has to judge are returned; note_results() is to follow
-  /// when it has. The others get their receipts at once: answers of an id that was used before, of somebody
-  /// who is not asked, and to decisions that are no longer open. A sample that was known (a late joiner hears
-  /// it again) gets none.
+  /// Receives answers, and returns those that the running plan has to judge; note_results() must follow when
+  /// it has. The others get their receipts at once: answers under an id that was used before, from somebody
+  /// who is not asked, and to decisions that are no longer open. A known sample (heard again by a late
+  /// joiner) gets none.
   std::vector<executive::DecisionAnswer> admit(const std::vector<GivenAnswer>& answers, ReactorOutputs& out);
   void note_results(const std::vector<executive::AnswerResult>& results, ReactorOutputs& out);
 
-  /// Keeps what the step says of decisions, and completes it from what was known of them.
+  /// Keeps the step's changes of decisions, and completes them by what was known before.
   void note_changes(std::vector<DecisionRecord>& changes);
 
   const std::map<std::string, DecisionRecord>& decisions() const { return decisions_; }
-  /// The newest receipt of every answer.
+  /// Returns the newest receipt of every answer.
   std::vector<AnswerReceipt> receipts() const;
 
   template <class Archive, class Self>

@@ -1,4 +1,5 @@
-/// What became of a plan: each of its activities with its real times and what its commands brought (R129, R144).
+// An executed plan tells what became of a plan: each of its activities with its real times and what its commands
+// brought (R129, R144).
 #pragma once
 
 #include <cstdint>
@@ -12,7 +13,7 @@
 
 namespace roci::exec::reactor {
 
-/// Has the order of ExecutedOutcome in idl/plan.idl.
+/// Says how a plan ended, in the order of ExecutedOutcome in idl/plan.idl.
 enum class ExecutedOutcome {
   finished,   ///< every activity succeeded or was skipped
   broken,     ///< and nothing of it runs any more
@@ -20,7 +21,7 @@ enum class ExecutedOutcome {
   replaced,   ///< another plan took its place
 };
 
-/// Is one activity as it was executed; times are mission times.
+/// Holds one activity as it was executed; times are mission times.
 struct ExecutedActivity {
   std::string id;
   std::string name;
@@ -31,30 +32,32 @@ struct ExecutedActivity {
   std::optional<temporal::Time> started, ended;
   std::uint32_t attempts = 0;  ///< commands that were sent for it
   std::string cause;           ///< why it is in this state, where that is not obvious
-  /// Joins those of all its commands: energies are summed, of values of one name the newest counts.
+  /// Joins the results of all its commands: energies are summed, and of values with one name the newest
+  /// counts.
   executive::CommandResults results;
   friend bool operator==(const ExecutedActivity&, const ExecutedActivity&) = default;
 };
 
-/// Is a whole plan as it was executed, its activities in its own order.
+/// Holds a whole plan as it was executed, its activities in plan order.
 struct ExecutedPlan {
   std::string id;
   std::uint32_t version = 0;
   temporal::Time origin{0};
   ExecutedOutcome outcome = ExecutedOutcome::finished;
-  std::string reason;  ///< of one that is broken or was cancelled
+  std::string reason;  ///< why the plan broke or was cancelled
   std::vector<ExecutedActivity> activities;
   friend bool operator==(const ExecutedPlan&, const ExecutedPlan&) = default;
 };
 
-/// Keeps what is told of the plan that runs, until it ends.
+/// Records what happens to the running plan, until it ends.
 class ExecutionRecord {
  public:
-  /// A plan runs from now on. Of activities that stood in the plan before under the same id, what is known goes on.
+  /// Begins the record of a plan that runs from now on. Activities that the plan before had under the same id keep
+  /// what is known of them.
   void begin(const temporal::FlexiblePlan& plan);
   void note(const executive::StepStatus& step);
   void note(const executive::CommandAck& ack);
-  /// Whether a plan has begun and was not closed.
+  /// Returns whether a plan has begun and was not closed.
   bool open() const { return open_; }
   ExecutedPlan close(ExecutedOutcome outcome, std::string reason);
 

@@ -1,4 +1,5 @@
-/// Commands that fail again and again: how long to wait before the next plan, and when to stop trying.
+// The failure back-off is for commands that fail again and again: it says how long to wait before the next
+// plan, and when to stop trying.
 #pragma once
 
 #include <cstdint>
@@ -9,18 +10,19 @@
 
 namespace roci::exec::reactor {
 
+/// Counts failures in a row for each component, and lets the pause before the next plan grow with them.
 class FailureBackoff {
  public:
-  /// `limit`: failures of one component in a row, at least 1. `first_pause`: after the second one; it doubles
-  /// with each further one, up to `longest_pause`. All tries together thus wait for less than
-  /// limit × longest_pause.
+  /// Takes the `limit` of failures of one component in a row, at least 1, and the `first_pause`, which
+  /// follows the second failure and doubles with each further one up to `longest_pause`. All tries together
+  /// thus wait for less than limit × longest_pause.
   FailureBackoff(std::uint32_t limit, temporal::Duration first_pause, temporal::Duration longest_pause)
       : limit_(limit), first_pause_(first_pause), longest_pause_(longest_pause) {}
 
   struct Count {
     std::uint32_t in_a_row = 0;
     bool used_up = false;         ///< the limit is reached; the next failure counts as the first
-    temporal::Duration pause{0};  ///< before the next plan; none after the first failure and after the last
+    temporal::Duration pause{0};  ///< pause before the next plan; none after the first failure and the last
   };
   Count failed(const std::string& component);
   void succeeded(const std::string& component) { in_a_row_.erase(component); }

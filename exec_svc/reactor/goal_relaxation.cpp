@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "exec_svc/reactor/goal_words.hpp"
+
 namespace roci::exec::reactor {
 
 using goals::GoalClass;
@@ -15,17 +17,19 @@ using temporal::Verdict;
 
 namespace {
 
-GoalKey newest_hard(const GoalSet& goals) {
-  GoalKey out;
-  for (const GoalRecord* record : goals.open())
-    if (record->request.importance == GoalClass::hard) out = record->request.key;
-  return out;
+GoalKey first_hard_to_leave(const GoalSet& goals) {
+  const GoalRecord* out = nullptr;
+  for (const GoalRecord* record : goals.open()) {
+    if (record->request.importance == GoalClass::hard && (out == nullptr || leaves_first(*record, *out)))
+      out = record;
+  }
+  return out == nullptr ? GoalKey{} : out->request.key;
 }
 
-/// Open goals that a proof blames, in the order of their arrival.
+/// Open goals that the planner blames, in the order of their arrival: by a proof, or for want of values that the owners
+/// of functions did not find.
 std::vector<GoalKey> blamed_goals(const PlanReply& reply, const GoalSet& goals) {
   std::vector<GoalKey> out;
-  if (reply.verdict != Verdict::unsolvable) return out;
   for (const GoalRecord* record : goals.open()) {
     const GoalKey& key = record->request.key;
     if (std::ranges::find(reply.blocking, key, &BlockingGoal::key) != reply.blocking.end())
@@ -43,50 +47,76 @@ std::string with_details(const std::string& reason, const PlanReply& reply) {
   return reply.reason.empty() ? reason : reason + "\ndetails: " + reply.reason;
 }
 
-std::string names_of_others(const GoalSet& goals, const GoalKey& key) {
-  constexpr std::size_t kNamed = 6;
+std::string names_of(const std::vector<const GoalRecord*>& goals) {
+  constexpr std::size_t kNamed = 7;
   std::string out;
-  std::size_t count = 0;
-  for (const GoalRecord* record : goals.open()) {
-    if (record->request.key == key || ++count > kNamed) continue;
-    out += (out.empty() ? "" : ", ") + record->request.key.id;
-  }
-  return count > kNamed ? out + " and " + std::to_string(count - kNamed) + " more" : out;
+  for (std::size_t i = 0; i < std::min(goals.size(), kNamed); ++i)
+    out += (i == 0 ? "" : ", ") + goals[i]->request.key.id;
+  return goals.size() > kNamed ? out + " and " + std::to_string(goals.size() - kNamed) + " more" : out;
 }
 
-std::vector<RelaxationStep::Leaving> leaving(const PlanReply& reply, const GoalSet& goals,
-                                             const std::vector<GoalKey>& keys) {
+// Why a goal leaves first of those that nothing blames.
+std::string rank_of(const GoalSet& goals, const GoalKey& key) {
+  const goals::GoalRequest& goal = goals.find(key)->request;
+  if (goal.importance == GoalClass::optional) return "the optional goal of the lowest utility";
+  const bool by_priority = std::ranges::any_of(goals.open(), [&](const GoalRecord* other) {
+    return other->request.importance == goal.importance && other->request.priority != goal.priority;
+  });
+  return std::string("the newest ") + (goal.importance == GoalClass::hard ? "hard" : "opportunistic") +
+         " goal" + (by_priority ? " of the lowest priority" : "");
+}
+
+// The goals that the planner was asked for.
+GoalSet goals_of_call(const GoalSet& goals, const Relaxation& relaxed) {
+  return relaxed.soft_goals_left_out.empty() ? goals : hard_goals(goals);
+}
+
+// The reason, with `besides` at the end of what is said in the words of the mission where a proof blames no goal and
+// speaks of several.
+std::string reason_with(const PlanReply& reply, const GoalSet& asked, const MissionModel& mission,
+                        const GoalKey& key, const std::string& besides) {
+  const goals::GoalRequest& goal = asked.find(key)->request;
+  const auto blamed = std::ranges::find(reply.blocking, key, &BlockingGoal::key);
+  if (blamed != reply.blocking.end())
+    return with_details(words_of_blamed(reply, *blamed, goal, mission), reply);
+  std::vector<const GoalRecord*> goals = asked.open();
+  if (reply.verdict != Verdict::unsolvable) {
+    std::erase_if(goals, [&](const GoalRecord* record) { return record->request.key == key; });
+    return words_of_spent_budget(reply, goal, names_of(goals), mission) +
+           "\ndetails: " + to_string(reply.verdict) + (reply.reason.empty() ? "" : ": " + reply.reason);
+  }
+  if (goals.size() < 2) return with_details("no plan achieves it", reply);
+  return with_details("no plan achieves all of " + names_of(goals) + besides, reply);
+}
+
+std::vector<RelaxationStep::Leaving> leaving(const PlanReply& reply, const GoalSet& asked,
+                                             const MissionModel& mission, const std::vector<GoalKey>& keys) {
   std::vector<RelaxationStep::Leaving> out;
-  for (const GoalKey& key : keys) out.push_back({key, reason_to_leave(reply, goals, key)});
+  for (const GoalKey& key : keys)
+    out.push_back(
+        {key, reason_with(reply, asked, mission, key, "; this one leaves first, as " + rank_of(asked, key))});
   return out;
 }
 
 }  // namespace
 
-// Of a goal that no proof blames nobody knows whether it would fit alone, so nothing is said of that.
-std::string reason_to_leave(const PlanReply& reply, const GoalSet& goals, const GoalKey& key) {
-  if (reply.verdict != Verdict::unsolvable)
-    return std::string(to_string(reply.verdict)) + (reply.reason.empty() ? "" : ": " + reply.reason);
-  const auto blamed = std::ranges::find(reply.blocking, key, &BlockingGoal::key);
-  if (blamed != reply.blocking.end())
-    return with_details("out of reach: " + (blamed->reason.empty() ? blamed->timeline : blamed->reason),
-                        reply);
-  const std::string others = names_of_others(goals, key);
-  return with_details(others.empty() ? "no plan achieves it" : "no plan achieves it together with " + others,
-                      reply);
+std::string reason_to_leave(const PlanReply& reply, const GoalSet& goals, const MissionModel& mission,
+                            const GoalKey& key, const Relaxation& relaxed) {
+  return reason_with(reply, goals_of_call(goals, relaxed), mission, key, "");
 }
 
 RelaxationStep relax(const PlanReply& reply, const GoalSet& goals, const MissionModel& mission,
                      const Relaxation& relaxed) {
   using Kind = RelaxationStep::Kind;
+  const GoalSet asked = goals_of_call(goals, relaxed);
   if (const auto soft = soft_goal_to_give_up(reply, goals, relaxed))
-    return {Kind::give_up_soft, leaving(reply, goals, {*soft}), ""};
+    return {Kind::give_up_soft, leaving(reply, asked, mission, {*soft}), ""};
   const std::vector<GoalKey> blamed = blamed_goals(reply, goals);
   if (!blamed.empty() && relaxed.soft_goals_left_out.empty() && goals.drop_candidate())
     return {Kind::leave_out_soft, {}, with_details("no plan has the hard goals beside it", reply)};
-  const auto hard = blamed.empty() ? std::vector{newest_hard(goals)} : blamed;
+  const auto hard = blamed.empty() ? std::vector{first_hard_to_leave(goals)} : blamed;
   const bool spend = keeps_reserves(mission) && relaxed.reserves == problem::Reserves::kept;
-  return {spend ? Kind::spend_reserves : Kind::give_up_hard, leaving(reply, goals, hard), ""};
+  return {spend ? Kind::spend_reserves : Kind::give_up_hard, leaving(reply, asked, mission, hard), ""};
 }
 
 std::optional<GoalKey> soft_goal_to_give_up(const PlanReply& reply, const GoalSet& goals,

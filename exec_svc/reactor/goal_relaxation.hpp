@@ -1,5 +1,5 @@
-/// Which goals leave when not all fit (over-subscription planning: D. E. Smith, "Choosing objectives in
-/// over-subscription planning", ICAPS 2004; R52, R53). Pure.
+// Goal relaxation decides which goals leave when not all fit (over-subscription planning: D. E. Smith,
+// "Choosing objectives in over-subscription planning", ICAPS 2004; R52, R53). It is pure.
 #pragma once
 
 #include <optional>
@@ -13,12 +13,12 @@
 
 namespace roci::exec::reactor {
 
-/// What was already relaxed in the planner call that was replied to.
+/// Says what was already relaxed in the planner call that was replied to.
 struct Relaxation {
-  std::string soft_goals_left_out;                       ///< the reason why they were; empty: they were in it
-  problem::Reserves reserves = problem::Reserves::kept;  ///< spent: for hard goals, until one fails or comes
+  std::string soft_goals_left_out;  ///< why soft goals were left out; empty: they were not
+  problem::Reserves reserves = problem::Reserves::kept;  ///< spent for hard goals, until one fails or comes
 
-  /// A goal that the call was made without, since the planner takes no problem with all of them.
+  /// Names a goal that the call was made without, since the planner refuses the problem with all of them.
   std::optional<goals::GoalKey> suspect;
   std::string refusal;  ///< what the planner said of the problem with all goals
 
@@ -28,6 +28,7 @@ struct Relaxation {
   }
 };
 
+/// Says what is relaxed next: goals that leave, or another call with less asked of it.
 struct RelaxationStep {
   enum class Kind {
     give_up_soft,    ///< these goals leave
@@ -36,44 +37,47 @@ struct RelaxationStep {
     spend_reserves,  ///< no goal leaves yet: one more call may use what the mission keeps back
   };
   Kind kind = Kind::give_up_soft;
-  /// A goal that leaves, or would have to, and why: in the words of the mission, and in a second line, "details: …", in
-  /// those of the planner.
+  /// Holds a goal that leaves, or would have to, and why: in the words of the mission, and in a second line, "details:
+  /// …", in those of the planner.
   struct Leaving {
     goals::GoalKey goal;
     std::string reason;
   };
   std::vector<Leaving> goals;
-  std::string reason;  ///< with leave_out_soft: of the soft goal that will leave if the others fit without it
+  std::string reason;  ///< with leave_out_soft: why the soft goal would leave if the others fit without it
 };
 
-/// The next step after a reply that says that the goals do not fit (temporal::speaks_of_goals). What the
-/// planner proves out of reach takes no other goal with it. One goal leaves at a time, unless hard ones alone
-/// are blamed: the others may be within reach once it is gone. A proof that blames hard goals alone may hold
-/// only because of what the soft ones demand (a search leaves out what cannot serve all goals), hence
-/// leave_out_soft.
+/// The next step after a reply that says that the goals do not fit (temporal::speaks_of_goals). What the planner proves
+/// out of reach, or cannot tell for want of a value that an owner did not find, takes no other goal with it. One goal
+/// leaves at a time, unless hard ones alone are blamed: the others may be within reach once it is gone. A proof that
+/// blames hard goals alone may hold only because of what the soft ones demand (a search leaves out what cannot serve all
+/// goals), hence leave_out_soft.
 RelaxationStep relax(const PlanReply& reply, const goals::GoalSet& goals,
                      const mission::MissionModel& mission, const Relaxation& relaxed);
 
-/// The soft goal that relax() gives up; nothing: the reply speaks of hard goals alone.
+/// Returns the soft goal that relax() gives up, or nothing if the reply speaks of hard goals alone.
 std::optional<goals::GoalKey> soft_goal_to_give_up(const PlanReply& reply, const goals::GoalSet& goals,
                                                    const Relaxation& relaxed);
 
 /// The hard goals of which some have to leave where relax() gives up hard ones:
-/// those that a proof blames, else all that are open.
+/// those that the planner blames, else all that are open.
 std::vector<goals::GoalKey> hard_goals_at_stake(const PlanReply& reply, const goals::GoalSet& goals);
 
-/// The next goal to do without, where the planner refuses a problem as invalid and nobody knows for which of its goals:
-/// the newest one first, then each older one. Nothing: all were tried, or there is one alone.
+/// Returns the next goal to leave out where the planner refuses a problem as invalid without naming a goal: the newest
+/// one first, then each older one. Returns nothing if all were tried, or there is only one.
 std::optional<goals::GoalKey> next_suspect(const goals::GoalSet& goals,
                                            const std::optional<goals::GoalKey>& suspect);
 
-/// Why a goal leaves after such a reply: in the words of the mission, and behind "details: " in those of the planner.
-std::string reason_to_leave(const PlanReply& reply, const goals::GoalSet& goals, const goals::GoalKey& key);
+/// Why a goal leaves after such a reply: in the words of the mission, and behind "details: " in those of the planner. Of
+/// a goal that nothing blames it claims nothing alone, but that no plan achieves all goals of the call, by their names.
+std::string reason_to_leave(const PlanReply& reply, const goals::GoalSet& goals,
+                            const mission::MissionModel& mission, const goals::GoalKey& key,
+                            const Relaxation& relaxed);
 
-/// The goals as they are, but this one counts as gone.
+/// Returns the goals as they are, with this one counted as gone.
 goals::GoalSet without(const goals::GoalSet& goals, const goals::GoalKey& key);
 
-/// The goals as they are, but soft ones that are open count as gone.
+/// Returns the goals as they are, with open soft ones counted as gone.
 goals::GoalSet hard_goals(const goals::GoalSet& goals);
 
 }  // namespace roci::exec::reactor

@@ -13,7 +13,7 @@
 namespace roci::exec::reactor {
 
 using executive::OutcomeKind;
-using orders::AutonomyLevel;
+using mission::AutonomyLevel;
 using orders::IssuedKey;
 using orders::Order;
 using orders::OrderKind;
@@ -135,7 +135,7 @@ GroundOrders::Ruling GroundOrders::set_level(const Order& order) {
   return {};
 }
 
-/// A contingency's text takes the place of the one before; nothing else may be uploaded.
+/// Replaces a contingency's text; nothing else may be uploaded.
 GroundOrders::Ruling GroundOrders::upload(const Order& order) {
   const auto& uploads = state_->mission->ground.uploads;
   if (std::ranges::find(uploads, order.target) == uploads.end())
@@ -174,7 +174,7 @@ GroundOrders::Ruling GroundOrders::drop(const Order& order) {
   return {};
 }
 
-/// It ends a hold of everything, which making safe by an order has begun.
+/// Launches the stopped plan again. This ends a hold of everything, which an order to make safe has begun.
 GroundOrders::Ruling GroundOrders::relaunch(Time now) {
   if (!stopped())
     return refused("no plan was stopped; the robot is " + std::string(to_string(state_->phase)));
@@ -200,8 +200,8 @@ GroundOrders::Ruling GroundOrders::make_safe(Time now, const Order& order) {
   return {OrderStage::accepted};
 }
 
-// Two commanders of one subsystem would not know of each other: where an engine's plan runs, or is being made, the
-// ground commands nothing beside it.
+// Carries out a single command, unless an engine's plan runs or is being made: two commanders of one subsystem
+// would not know of each other.
 GroundOrders::Ruling GroundOrders::command(Time now, const Order& order) {
   if (std::string fault = fault_of_commanding(); !fault.empty()) return refused(fault);
   SingleCommand single =
@@ -254,7 +254,7 @@ std::string GroundOrders::fault_of_waiting(const std::string& activity) const {
   return "";
 }
 
-/// Where no plan runs, open goals are planned as soon as the ground lets them, whoever made the robot safe.
+/// Plans open goals where no plan runs, as soon as the ground allows it, whoever made the robot safe.
 void GroundOrders::plan_if_none_runs(const std::string& reason) {
   const bool none_runs = state_->phase == MissionPhase::safe || state_->phase == MissionPhase::idle;
   if (none_runs && state_->authority.may_replan() && !state_->goals.open().empty()) state_->want_plan(reason);

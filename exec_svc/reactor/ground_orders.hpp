@@ -1,5 +1,5 @@
-/// Acts on the orders of the ground: each is given once, and answered with its stages. What an order changes
-/// for good stands in the mission's authority, values and uploads.
+// This part of the reactor acts on the orders of the ground. What an order changes for good stands in the
+// mission's authority, values and uploads.
 #pragma once
 
 #include <map>
@@ -14,22 +14,23 @@
 
 namespace roci::exec::reactor {
 
+/// Obeys each order once, and answers it with its stages.
 class GroundOrders {
  public:
-  /// All outlive this.
+  /// All arguments must outlive this object.
   GroundOrders(MissionState& state, RunningPlan& plan, Safing& safing)
       : state_(&state), plan_(&plan), safing_(&safing) {}
 
   /// Obeys the orders among the inputs, before the plan hears of the step. Values that the ground sets become
-  /// observations among them, answers to decisions answers.
+  /// observations among the inputs, and orders that answer decisions become answers.
   void obey(temporal::Time now, ReactorInputs& inputs);
-  /// Says at the end of a step what has been applied by now.
+  /// Reports at the end of a step what has been applied by now.
   void settle();
 
   const orders::OrderBook& book() const { return book_; }
-  /// The values of the ground's timelines, as they were set.
+  /// Returns the values of the ground's timelines, as they were set.
   const std::map<std::string, temporal::Value>& values() const { return values_; }
-  /// After restore: the executive gets again what the ground has set for it.
+  /// Gives the executive again, after a restore, what the ground has set for it.
   void reinstate();
 
   template <class Archive, class Self>
@@ -39,7 +40,7 @@ class GroundOrders {
   }
 
  private:
-  /// What becomes of an order at once.
+  /// Says what becomes of an order at once.
   struct Ruling {
     orders::OrderStage stage = orders::OrderStage::applied;
     std::string reason{};

@@ -16,7 +16,7 @@ constexpr std::size_t kSetsOfOneSize = 10'000;
 
 using Records = std::vector<const GoalRecord*>;
 
-/// How many sets of `size` there are of `count` things, or more than kSetsOfOneSize.
+/// Returns how many sets of `size` there are of `count` things, or more than kSetsOfOneSize.
 std::size_t number_of_sets(std::size_t count, std::size_t size) {
   std::size_t out = 1;
   for (std::size_t i = 0; i < std::min(size, count - size) && out <= kSetsOfOneSize; ++i)
@@ -26,28 +26,28 @@ std::size_t number_of_sets(std::size_t count, std::size_t size) {
 
 struct WeighedSet {
   RankVector utility;
-  Records goals;  ///< the newest first
+  Records goals;  ///< as they leave
 };
+
+bool goes_before(const GoalRecord* one, const GoalRecord* other) { return goals::leaves_first(*one, *other); }
 
 bool leaves_before(const WeighedSet& a, const WeighedSet& b) {
   if (a.utility < b.utility) return true;
   if (b.utility < a.utility) return false;
-  return std::ranges::lexicographical_compare(
-      b.goals, a.goals, {}, [](const GoalRecord* goal) { return goal->arrival; },
-      [](const GoalRecord* goal) { return goal->arrival; });
+  return std::ranges::lexicographical_compare(a.goals, b.goals, goes_before);
 }
 
-/// Every set of `size` of these, which stand newest first.
-std::vector<WeighedSet> sets_of(const Records& newest_first, std::size_t size) {
+/// Every set of `size` of these, which stand as they leave.
+std::vector<WeighedSet> sets_of(const Records& leaving, std::size_t size) {
   std::vector<WeighedSet> out;
-  std::vector<bool> chosen(newest_first.size(), false);
+  std::vector<bool> chosen(leaving.size(), false);
   std::fill_n(chosen.begin(), size, true);
   do {
     WeighedSet set;
     for (std::size_t i = 0; i < chosen.size(); ++i) {
       if (!chosen[i]) continue;
-      set.utility += newest_first[i]->request.utility;
-      set.goals.push_back(newest_first[i]);
+      set.utility += leaving[i]->request.utility;
+      set.goals.push_back(leaving[i]);
     }
     out.push_back(std::move(set));
   } while (std::prev_permutation(chosen.begin(), chosen.end()));
@@ -65,13 +65,13 @@ std::vector<GoalKey> keys_of(const Records& records) {
 
 std::vector<std::vector<GoalKey>> leaving_sets(const GoalSet& goals, const std::vector<GoalKey>& among,
                                                std::size_t most) {
-  Records newest_first;
-  for (const GoalKey& key : among) newest_first.push_back(goals.find(key));
-  std::ranges::sort(newest_first, std::ranges::greater{}, &GoalRecord::arrival);
+  Records leaving;
+  for (const GoalKey& key : among) leaving.push_back(goals.find(key));
+  std::ranges::sort(leaving, goes_before);
   std::vector<std::vector<GoalKey>> out;
-  for (std::size_t size = 1; size < newest_first.size() && out.size() < most; ++size) {
-    if (number_of_sets(newest_first.size(), size) > kSetsOfOneSize) break;
-    for (const WeighedSet& set : sets_of(newest_first, size)) {
+  for (std::size_t size = 1; size < leaving.size() && out.size() < most; ++size) {
+    if (number_of_sets(leaving.size(), size) > kSetsOfOneSize) break;
+    for (const WeighedSet& set : sets_of(leaving, size)) {
       if (out.size() == most) break;
       out.push_back(keys_of(set.goals));
     }

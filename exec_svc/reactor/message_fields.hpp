@@ -1,5 +1,5 @@
-/// The fields of the reactor's messages for the archive, each type once, for writing and reading. A type that
-/// gains a member gains it here too: what is left out is lost at a restart.
+// This file lists the fields of the reactor's messages for the archive, each type once, for writing and
+// reading. A type that gains a member gains it here too: what is left out is lost at a restart.
 #pragma once
 
 #include "exec_svc/archive/plan_fields.hpp"

@@ -1,5 +1,5 @@
-/// What all parts of the reactor share: the mission, its goals and beliefs, the phase, and what the step
-/// under way puts out.
+// The mission state is what all parts of the reactor share: the mission, its goals and beliefs, the phase,
+// and what the step under way puts out.
 #pragma once
 
 #include <string>
@@ -13,9 +13,10 @@
 
 namespace roci::exec::reactor {
 
-/// The text up to its first line feed.
+/// Returns the text up to its first line feed.
 std::string first_line(const std::string& text);
 
+/// Holds what the parts of the reactor share; it decides nothing.
 struct MissionState {
   /// The model outlives the state.
   explicit MissionState(const mission::MissionModel& model)
@@ -27,20 +28,20 @@ struct MissionState {
   MissionPhase phase = MissionPhase::idle;
   orders::Authority authority;  ///< what the ground leaves to the executive
   bool replan_wanted = false;
-  std::string replan_reason;  ///< of the newest wish for a plan, also once it has been granted
-  ReactorCounts counts;       ///< of planner calls and replans; goals are counted when asked for
-  ReactorOutputs out;         ///< of the step under way
+  std::string replan_reason;  ///< reason for the newest wish for a plan, also once it has been granted
+  ReactorCounts counts;       ///< planner calls and replans; goals are counted when asked for
+  ReactorOutputs out;         ///< outputs of the step under way
 
   void want_plan(const std::string& reason);
-  /// A wish for a plan, and the ground lets it be granted: below autonomy E4 a plan is only made where none
-  /// runs, under a hold none.
+  /// Returns whether a plan is wanted and the ground lets it be made: below autonomy E4 only where no plan
+  /// runs, under a hold never.
   bool replan_due() const;
-  /// Tells operators.
+  /// Reports an event to operators.
   void report(Severity level, std::string code, std::string text);
   void set_goal(const goals::GoalKey& key, goals::GoalState goal_state, const std::string& reason,
                 std::uint32_t plan_version = 0);
-  /// Ends goals that cannot be reached. Hard ones are never dropped: they fail, and the ground is asked. Of a reason of
-  /// several lines operators are told the first, in the words of the mission; the goal keeps them all.
+  /// Ends goals that cannot be reached. Hard ones are never dropped: they fail, and the ground is asked. The goal keeps
+  /// all lines of the reason; operators are told the first, which is in the words of the mission.
   void give_up(const std::vector<goals::GoalKey>& keys, const std::string& reason);
   std::vector<goals::GoalKey> open_goals() const;
   void wake_at(temporal::Time time);

@@ -35,8 +35,8 @@ PropertyTable property_table(const Problem& problem) {
   return out;
 }
 
-// Engines give conditions as one comparison or a conjunction of comparisons; only those that observations can
-// decide stay.
+// Keeps those comparisons that observations can decide; engines give conditions as one comparison or a
+// conjunction of them.
 Condition decidable(const Condition& condition, const Beliefs& beliefs) {
   std::vector<Condition> parts;
   for (const ConditionNode& node : condition.nodes) {
@@ -49,7 +49,7 @@ Condition decidable(const Condition& condition, const Beliefs& beliefs) {
 
 using Renaming = std::map<std::string, std::string>;
 
-// Ids that no other plan of the run has, in the order of the activities.
+// Gives the activities, in their order, ids that no other plan of the run has.
 Renaming rename_activities(temporal::FlexiblePlan& plan) {
   Renaming renamed;
   std::size_t number = 0;
@@ -62,7 +62,7 @@ Renaming rename_activities(temporal::FlexiblePlan& plan) {
   return renamed;
 }
 
-// Conditions that ask how another activity went.
+// Renames activities in conditions that ask how another activity went.
 void rename_in(Condition& condition, const Renaming& renamed) {
   for (ConditionNode& node : condition.nodes) {
     const auto found = renamed.find(temporal::activity_of(node.timeline));
@@ -70,7 +70,7 @@ void rename_in(Condition& condition, const Renaming& renamed) {
   }
 }
 
-// Decisions of one plan and the next have different ids, too.
+// Renames all references. Decisions of one plan and the next have different ids, too.
 void rename_references(temporal::FlexiblePlan& plan, const Renaming& renamed) {
   const auto rename = [&](std::string& id) {
     if (const auto found = renamed.find(id); found != renamed.end()) id = found->second;
@@ -130,7 +130,7 @@ std::string known_subsystems(const MissionModel& mission) {
   return out.empty() ? "none" : out;
 }
 
-// Of PlanActivity or PlanCommand: whose members have the same names.
+// Works on PlanActivity or PlanCommand, whose members have the same names.
 template <class Commanding>
 std::string bind_command(Commanding& command, const std::string& activity, const MissionModel& mission) {
   const auto fits = [&](const Component& component) {
@@ -148,7 +148,7 @@ std::string bind_command(Commanding& command, const std::string& activity, const
   return "";
 }
 
-// "w1.x" is a property of an object that the plan was asked for with.
+// Fills in properties such as "w1.x" of objects of the problem.
 std::string bind_properties(PlanActivity& activity, const Problem& problem, const PropertyTable& properties) {
   for (temporal::Property& argument : activity.arguments) {
     const auto dot = argument.value.find('.');

@@ -17,7 +17,7 @@ using temporal::Time;
 
 namespace {
 
-/// The goals that an activity works for: those it serves, else those of the next one that serves any.
+/// Returns the goals that an activity works for: those it serves, else those of the next one that serves any.
 std::vector<GoalKey> goals_behind(const temporal::FlexiblePlan& plan, const std::string& activity,
                                   const GoalSet& goals) {
   const auto failed = std::find_if(plan.activities.begin(), plan.activities.end(),
@@ -59,7 +59,7 @@ void PlanRecovery::note_successes() {
 
 void PlanRecovery::monitor(Time now, bool next_is_coming) {
   const Outcome outcome = plan_->outcome();
-  const bool all = state_->authority.level() == orders::AutonomyLevel::e4;
+  const bool all = state_->authority.level() == mission::AutonomyLevel::e4;
   const bool waits = state_->replan_wanted && !state_->replan_due();  // for the end of a hold
   if (outcome.kind == OutcomeKind::broken) {
     if (!waits || !plan_->invalid()) handle_failure(now, outcome);
@@ -91,7 +91,7 @@ void PlanRecovery::handle_failure(Time now, const Outcome& outcome) {
 void PlanRecovery::break_plan(Time now, const std::string& reason) {
   plan_->invalidate();
   state_->report(Severity::warning, "plan.broken", plan_->name() + " is broken: " + reason);
-  if (state_->authority.level() < orders::AutonomyLevel::e4)
+  if (state_->authority.level() < mission::AutonomyLevel::e4)
     return safing_->make_safe(now, plan_->name() + " broke at autonomy level " +
                                        to_string(state_->authority.level()) + ": " + reason);
   if (policy_.replans) return state_->want_plan(plan_->name() + " is broken");
@@ -101,7 +101,8 @@ void PlanRecovery::break_plan(Time now, const std::string& reason) {
   safing_->make_safe(now, plan_->name() + " broke: " + reason);
 }
 
-/// A component that keeps failing gets ever more time to recover; in the end its goals are given up.
+/// Counts a failure. A component that keeps failing gets ever more time to recover; in the end its goals are
+/// given up.
 void PlanRecovery::count_failure(Time now, const Outcome& outcome) {
   const temporal::PlanActivity* activity = plan_->executive().activity(outcome.activity);
   if (activity == nullptr || activity->subsystem.empty()) return;

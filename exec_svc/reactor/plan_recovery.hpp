@@ -1,5 +1,5 @@
-/// What follows when the running plan ends, breaks or will break: the way on is what the recovery policy
-/// still has, a new plan, else the ground, else nothing (R102).
+// Plan recovery decides what follows when the running plan ends, breaks or will break: what the recovery
+// policy still has, a new plan, else the ground, else nothing (R102).
 #pragma once
 
 #include <string>
@@ -12,22 +12,24 @@
 
 namespace roci::exec::reactor {
 
+/// Watches the running plan, and chooses how to go on after a failure, an end or a conflict seen ahead.
 class PlanRecovery {
  public:
-  /// All outlive this.
+  /// All arguments must outlive this object.
   PlanRecovery(MissionState& state, RunningPlan& plan, PlannerCall& call, Safing& safing);
 
-  /// A component whose command succeeded is trusted again. Looks at the steps that this reactor step put out.
+  /// Restores trust in each component whose command succeeded, by the steps that this reactor step put out.
   void note_successes();
 
-  /// Looks after a plan that a planner call brought: its end, its break, and conflicts of activities that are
-  /// not due yet. `next_is_coming`: its end alone asks for no other plan.
+  /// Monitors a plan that a planner call brought: its end, its break, and conflicts of activities that are
+  /// not due yet. With `next_is_coming`, its end alone asks for no other plan.
   void monitor(temporal::Time now, bool next_is_coming);
 
-  /// The running plan must not go on.
+  /// Gives the running plan up, and does what the recovery policy asks for then: a new plan, the ground, or
+  /// nothing.
   void break_plan(temporal::Time now, const std::string& reason);
 
-  /// Counts a wish for a plan as granted. False: there were too many, and the robot is safe.
+  /// Counts a wish for a plan as granted. Returns false if there were too many, and the robot is made safe.
   bool may_replan(temporal::Time now);
 
   template <class Archive, class Self>
@@ -39,12 +41,13 @@ class PlanRecovery {
 
  private:
   void handle_failure(temporal::Time now, const executive::Outcome& outcome);
-  /// `kind` of break of an activity, which is no failure of its command: one like the break before, with nothing done
-  /// since, waits before the next plan as a component that fails again does (FailureBackoff);
-  /// in the end its goals are given up.
+  /// Counts a `kind` of break of an activity that is no failure of its command. A repeated break, with nothing done
+  /// since, waits before the next plan as a component that fails again does (FailureBackoff); in the end its goals
+  /// are given up.
   void count_break(temporal::Time now, const std::string& activity, const std::string& kind);
   void count_failure(temporal::Time now, const executive::Outcome& outcome);
-  /// Says so on the timeline `trust.SUBSYSTEM`: what a plan may do for other goals without this one is up to its model.
+  /// Publishes on the timeline `trust.SUBSYSTEM` whether the subsystem is trusted; the planning model decides what a
+  /// plan may still do without it.
   void note_trust(const std::string& subsystem, bool lost);
 
   MissionState* state_;

@@ -10,11 +10,12 @@ using temporal::Verdict;
 
 namespace {
 
-/// Calls given up for a changed model, in a row; after that many the reply is taken: what has changed since
-/// shows in the execution.
+/// Bounds the calls in a row that are given up for a changed model; after that many the reply is taken, and
+/// later changes show in the execution.
 constexpr std::uint32_t kStaleLimit = 5;
 
-/// Before the next call after one that failed; doubled with each failure in a row, so often at most.
+/// Sets the pause before the next call after one that failed; it doubles with each failure in a row, up to a
+/// bound.
 constexpr double kFirstPauseS = 10;
 constexpr std::uint32_t kMostDoublings = 4;
 

@@ -136,7 +136,7 @@ void PlanningCycle::adopt(Time now, const PlanReply& reply) {
 }
 
 void PlanningCycle::set_start_times(temporal::FlexiblePlan& plan) const {
-  if (state_->authority.level() == orders::AutonomyLevel::e2) {
+  if (state_->authority.level() == mission::AutonomyLevel::e2) {
     fix_starts(plan);
   } else if (state_->mission->executive.start == executive::StartPolicy::latest) {
     prefer_latest_starts(plan);
@@ -161,7 +161,7 @@ bool PlanningCycle::give_up_unseen() {
   return !unseen.empty();
 }
 
-/// Every open goal is in the plan: the planner was asked for all of them.
+/// Marks every open goal as planned, since the planner was asked for all of them.
 void PlanningCycle::note_planned() {
   std::string served;
   for (const GoalRecord* record : state_->goals.open()) {
@@ -223,7 +223,8 @@ void PlanningCycle::take_trial(Time now, const PlanReply& reply) {
   if (reply.verdict == Verdict::solved) {
     for (const goals::GoalKey& key : trial.without)
       if (!is_final(state_->goals.find(key)->state))
-        state_->give_up({key}, with_what_it_saves(reason_to_leave(trial.refusal, state_->goals, key)));
+        state_->give_up({key}, with_what_it_saves(reason_to_leave(trial.refusal, state_->goals,
+                                                                  *state_->mission, key, relaxed_)));
     keep_reserves();
   } else {
     give_up_hard(reactor::relax(trial.refusal, state_->goals, *state_->mission, relaxed_));

@@ -1,5 +1,4 @@
-/// From a wish for a plan to a plan that runs: the problem is written, the planner called, and its reply
-/// turned into a plan, into fewer goals or into another call.
+// The planning cycle leads from a wish for a plan to a plan that runs.
 #pragma once
 
 #include "exec_svc/reactor/goal_relaxation.hpp"
@@ -11,9 +10,11 @@
 
 namespace roci::exec::reactor {
 
+/// Writes the problem, calls the planner, and turns its reply into a plan, into fewer goals or into another
+/// call.
 class PlanningCycle {
  public:
-  /// All outlive this.
+  /// All arguments must outlive this object.
   PlanningCycle(MissionState& state, RunningPlan& plan, PlannerCall& call, Safing& safing)
       : state_(&state), plan_(&plan), call_(&call), safing_(&safing) {}
 
@@ -28,16 +29,16 @@ class PlanningCycle {
   /// the second time the goal is given up.
   void adopt(temporal::Time now, const PlanReply& reply);
 
-  /// Not all goals fit: one leaves, or the next call is relaxed. False: that call is to be made as it is, for
-  /// hard goals alone or for some of them.
+  /// Acts on a reply that says that not all goals fit: one leaves, or the next call is relaxed. Returns false
+  /// if that call is to be made at once, for hard goals alone or for some of them.
   bool relax(const PlanReply& reply);
-  /// Whether relax() would end a soft goal, and no hard one is at stake.
+  /// Returns whether relax() would end a soft goal, with no hard one at stake.
   bool soft_goal_would_leave(const PlanReply& reply) const;
-  /// The planner says that goals are out of reach, and was asked while somebody was away who tells what is so: no goal
-  /// is to end for that. Tells it, and sets the time before which the call is not to be made again (PlannerCall).
-  /// False: the reply counts, also where it has been asked often enough.
+  /// Doubts a reply that goals are out of reach if a source of observations was away: no goal is to end for that.
+  /// Reports it, and sets the time before which the call is not to be repeated (PlannerCall). Returns false if the
+  /// reply counts, also after enough such replies.
   bool doubts(temporal::Time now, const PlanReply& reply);
-  /// Another goal came: what the mission keeps back is kept again.
+  /// Keeps the mission's reserves back again, since another goal came.
   void keep_reserves() { relaxed_.reserves = problem::Reserves::kept; }
 
   template <class Archive, class Self>
@@ -50,35 +51,36 @@ class PlanningCycle {
  private:
   void call_for_now(temporal::Time now);
   problem::Problem write(temporal::Time now, temporal::Time origin, const problem::Forecast& forecast) const;
-  /// Says what the problem does without, and ends the goals that make it invalid. True: there were such goals.
+  /// Reports what the problem leaves out, and ends the goals that make it invalid. Returns whether there were
+  /// such goals.
   bool leave_out(const problem::Problem& problem);
-  /// The planner calls the problem invalid: it is asked again without one goal, then without another one. False: it is
-  /// none of them.
+  /// Asks the planner, which calls the problem invalid, again without one goal, then without another one. Returns
+  /// false if it is none of them.
   bool suspect_a_goal(temporal::Time now, const PlanReply& reply);
-  /// Not even the hard goals fit: the planner is asked without some of them, to see which ones' leaving saves the
-  /// others. False: the mission does not want that, or there is nothing more to try.
+  /// Asks the planner without some of the hard goals, since not even those fit, to find which have to leave.
+  /// Returns false if the mission does not want that, or there is nothing more to try.
   bool try_without_some(const PlanReply& refusal);
-  /// Acts on the reply to such a call: what it was made without leaves, or is tried again with the next ones, or all
-  /// leave that would have left at once.
+  /// Acts on the reply to such a trial: the goals that it left out leave, or the next set is tried, or all goals
+  /// leave that would have left without trials.
   void take_trial(temporal::Time now, const PlanReply& reply);
   void give_up_hard(const RelaxationStep& step);
   void try_again_later(temporal::Time now, const PlanReply& reply);
   void tell_retry(const std::string& reason);
   void await_retry();
   void note_planned();
-  /// Times of the starts beyond what the plan asks for: fixed ones at E2, the latest where the mission says so.
+  /// Sets start times beyond what the plan asks for: fixed ones at E2, the latest where the mission says so.
   void set_start_times(temporal::FlexiblePlan& plan) const;
-  /// Ends the goals for which a plan without activities was adopted before, with nothing achieved by it. True: there
-  /// were such goals.
+  /// Ends the goals for which a plan without activities was adopted before, with nothing achieved by it. Returns
+  /// whether there were such goals.
   bool give_up_unseen();
 
   MissionState* state_;
   RunningPlan* plan_;
   PlannerCall* call_;
   Safing* safing_;
-  Relaxation relaxed_;  ///< in the newest call
+  Relaxation relaxed_;  ///< what the newest call relaxed
   HardGoalTrials trials_;
-  /// The goals of the newest plan if that has no activities.
+  /// Lists the goals of the newest plan if that has no activities.
   std::vector<goals::GoalKey> planned_without_activities_;
 };
 

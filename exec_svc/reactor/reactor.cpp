@@ -6,6 +6,7 @@
 #include "exec_svc/reactor/decision_exchange.hpp"
 #include "exec_svc/reactor/ground_orders.hpp"
 #include "exec_svc/reactor/inputs.hpp"
+#include "exec_svc/reactor/lost_components.hpp"
 #include "exec_svc/reactor/message_fields.hpp"
 #include "exec_svc/reactor/replanning_policy.hpp"
 
@@ -29,6 +30,7 @@ struct Reactor::Parts {
   DecisionExchange decisions;
   PlannerCall call{state};
   Safing safing{state, plan};
+  LostComponents lost{state, call, safing};
   PlanningCycle planning{state, plan, call, safing};
   PlanRecovery recovery{state, plan, call, safing};
   GroundOrders ground{state, plan, safing};
@@ -54,12 +56,18 @@ void Reactor::restore(const std::vector<GoalRecord>& goals, std::uint32_t last_p
 ReactorOutputs Reactor::step(Time now, const ReactorInputs& came_in) {
   MissionState& state = parts_->state;
   state.out = {};
-  std::optional<ReactorInputs> with_orders;  // what the ground sets and answers comes in beside the rest
-  if (!came_in.ground_orders.empty()) parts_->ground.obey(now, with_orders.emplace(came_in));
-  const ReactorInputs& inputs = with_orders ? *with_orders : came_in;
+  std::optional<ReactorInputs> with_more;  // what the ground sets and answers comes in beside the rest
+  if (!came_in.ground_orders.empty()) parts_->ground.obey(now, with_more.emplace(came_in));
+  const auto counted = parts_->lost.step(now, came_in);
+  if (!counted.empty()) {
+    if (!with_more) with_more.emplace(came_in);
+    with_more->observations.insert(with_more->observations.end(), counted.begin(), counted.end());
+  }
+  const ReactorInputs& inputs = with_more ? *with_more : came_in;
   for (const Observation& observation : inputs.observations)
     state.beliefs.observe(observation.timeline, observation.value);
   take_services(inputs);
+  parts_->lost.hold_planning();
   for (const ModelVersion& newer : parts_->call.note_models(inputs.models)) parts_->plan.note_newer(newer);
   if (take_goals(state, now, inputs.goals)) parts_->planning.keep_reserves();
   if (take_handed_over(state, inputs.handed_over)) parts_->planning.keep_reserves();
@@ -78,7 +86,7 @@ ReactorOutputs Reactor::step(Time now, const ReactorInputs& came_in) {
   return std::move(state.out);
 }
 
-void Reactor::restore_authority(orders::AutonomyLevel level, bool held) {
+void Reactor::restore_authority(mission::AutonomyLevel level, bool held) {
   parts_->state.authority.set_level(level);
   parts_->state.authority.hold_all(held);
   parts_->ground.reinstate();
@@ -106,7 +114,7 @@ void Reactor::take_services(const ReactorInputs& inputs) {
   }
 }
 
-/// What was on its way to owners and planner is asked for again.
+/// Asks again for what was on its way to owners and planner.
 void Reactor::resume(Time now) {
   MissionState& state = parts_->state;
   state.report(Severity::info, "executive.resumed",
@@ -133,7 +141,7 @@ bool Reactor::at_rest() const {
 
 namespace {
 
-/// What each part keeps of itself, in one order for both ways.
+/// Lists what each part keeps of itself, in one order for both ways.
 template <class Archive, class Parts>
 void part_fields(Archive& archive, Parts& parts) {
   MissionState::fields(archive, parts.state);
@@ -144,6 +152,7 @@ void part_fields(Archive& archive, Parts& parts) {
   Safing::fields(archive, parts.safing);
   PlanningCycle::fields(archive, parts.planning);
   PlanRecovery::fields(archive, parts.recovery);
+  LostComponents::fields(archive, parts.lost);
 }
 
 }  // namespace
@@ -227,7 +236,7 @@ const std::map<std::string, temporal::Value>& Reactor::concluded() const {
   return parts_->state.beliefs.concluded();
 }
 
-orders::AutonomyLevel Reactor::autonomy() const { return parts_->state.authority.level(); }
+mission::AutonomyLevel Reactor::autonomy() const { return parts_->state.authority.level(); }
 
 bool Reactor::held() const { return parts_->state.authority.held(); }
 
@@ -246,7 +255,7 @@ ReactorCounts Reactor::counts() const {
 std::string Reactor::outcome() const {
   const bool ground_goes_on =
       !parts_->state.authority.may_replan();  // a release or a relaunch may still come
-  if (phase() == MissionPhase::safe && ground_goes_on) return "";
+  if (phase() == MissionPhase::safe && (ground_goes_on || parts_->lost.awaits())) return "";
   if (phase() == MissionPhase::safe) return parts_->state.beliefs.active().empty() ? "partial" : "failed";
   if (phase() != MissionPhase::finished) return "";
   auto asked = goals().all();

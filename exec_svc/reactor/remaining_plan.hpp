@@ -1,5 +1,5 @@
-/// What is left of a plan when a new one is asked for. The planner begins with it, so that little changes
-/// where little has happened, and its first plan costs next to nothing.
+// The remaining plan is what is left of a plan when a new one is asked for. The planner begins with it, so
+// that little changes where little has happened, and its first plan costs next to nothing.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace roci::exec::reactor {
 
-/// An action as the planner wrote it, before it was bound to a command.
+/// Holds an action as the planner wrote it, before it was bound to a command.
 struct PlannedAction {
   std::string activity;  ///< its id in the bound plan
   std::string name;
@@ -20,10 +20,10 @@ struct PlannedAction {
   friend bool operator==(const PlannedAction&, const PlannedAction&) = default;
 };
 
-/// `plan`: as it came from the planner. No ids yet.
+/// Returns the actions of a plan as it came from the planner, without ids.
 std::vector<PlannedAction> planned_actions(const temporal::FlexiblePlan& plan);
 
-/// Leaves out those that run, have done their work or were skipped; what no step tells of stays.
+/// Leaves out actions that run, have succeeded or were skipped; one that no step mentions stays.
 std::vector<PlannedAction> remaining_actions(std::vector<PlannedAction> planned,
                                              const std::vector<executive::StepStatus>& steps);
 

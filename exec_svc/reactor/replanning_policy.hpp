@@ -1,4 +1,4 @@
-/// When a plan is asked for and what goes on meanwhile: one type for each value of mission::Replanning.
+// A replanning policy decides when a plan is asked for and what goes on meanwhile.
 #pragma once
 
 #include <memory>
@@ -13,7 +13,7 @@
 
 namespace roci::exec::reactor {
 
-/// The parts of the reactor that a policy works with; the reactor owns them.
+/// Refers to the parts of the reactor that a policy works with; the reactor owns them.
 struct PolicyParts {
   MissionState& state;
   RunningPlan& plan;
@@ -23,16 +23,17 @@ struct PolicyParts {
   PlanRecovery& recovery;
 };
 
+/// Serves one value of mission::Replanning.
 class ReplanningPolicy {
  public:
   virtual ~ReplanningPolicy() = default;
 
-  /// The inputs have been taken in and the executive has acted on them; this decides whether a plan is asked
-  /// for, taken or given up.
+  /// Decides whether a plan is asked for, taken or given up, once the inputs have been taken in and the
+  /// executive has acted on them.
   virtual void step(temporal::Time now, const ReactorInputs& inputs) = 0;
-  /// After a restart: what was on its way to the planner is asked for again.
+  /// Asks again, after a restart, for what was on its way to the planner.
   virtual void resume(temporal::Time now) = 0;
-  /// What the engine was told of its plan; null where plans are asked for.
+  /// Returns what the engine was told of its plan, or null where plans are asked for.
   virtual const PlanReceipt* receipt() const { return nullptr; }
 
   virtual void save(archive::Writer& archive) const = 0;

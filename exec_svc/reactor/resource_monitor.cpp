@@ -18,7 +18,7 @@ using temporal::Value;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// Sums of amounts round; a lack as small as that is none.
+// Returns the lack that counts as none, since sums of amounts are rounded.
 double slack(double value) { return 1e-9 * std::max(1.0, std::abs(value)); }
 
 }  // namespace

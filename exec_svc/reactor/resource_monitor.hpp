@@ -1,5 +1,5 @@
-/// Whether what is there now suffices for the rest of a plan: energy that was lost is missed long before the
-/// activity that lacks it is due (conflicts seen ahead, R72–R74).
+// The resource monitor checks whether present amounts suffice for the rest of a plan: lost energy is noticed
+// long before the activity that lacks it is due (conflicts seen ahead, R72–R74).
 #pragma once
 
 #include <cstddef>
@@ -16,45 +16,47 @@
 
 namespace roci::exec::reactor {
 
-/// For every numeric timeline that the plan's activities change by a known amount for good, and in no other way (what
-/// is given back at an activity's end is waited for): the range in which its value must lie now, so that the pre
-/// conditions of all waiting activities hold in plan order.
+/// Knows, for every numeric timeline that the plan's activities change only by known lasting amounts (what is given
+/// back at an activity's end is waited for), the range in which its value must lie now so that the pre conditions of
+/// all waiting activities hold in plan order.
 ///
-/// Nobody sees how much of it the first attempt of a running activity has taken or given already: it may still do any
-/// part of what was planned, and whatever part would do is reckoned with, so that no alarm is false: at the start of a
-/// drive it may have taken all its energy, or none. So what is lost beside it is missed once less is left than what
-/// follows needs, at its end at the latest; reckoning by the time that has passed would miss it sooner, and raise false
-/// alarms where a drive takes most in its first metres. What another attempt will take counts until it is seen.
+/// Nobody sees how much of its planned amount the first attempt of a running activity has taken or given already, from
+/// nothing to all. No alarm is raised if any such part would explain the value, so no alarm is false. A loss beside it
+/// is thus noticed once less is left than what follows needs, at the activity's end at the latest. Interpolating by
+/// elapsed time would notice it sooner, but raise false alarms where a drive takes most in its first metres. What
+/// another attempt will take counts until it is seen.
 ///
-/// An activity that waits no more costs the logarithm of the plan's length, a check two comparisons for each timeline.
+/// Removing an activity costs the logarithm of the plan's length, a check two comparisons for each timeline.
 class ResourceMonitor {
  public:
   ResourceMonitor() = default;
-  /// At first all activities wait.
+  /// Starts with all activities waiting.
   explicit ResourceMonitor(const temporal::FlexiblePlan& plan);
 
-  /// The activity waits no more: it was started, skipped or cancelled.
+  /// Removes an activity that no longer waits: it was started, skipped or cancelled.
   void remove(const std::string& activity);
-  /// It was started and runs: until it is settled it may change its timelines by all that was planned.
+  /// Notes that the activity was started: until it is settled it may change its timelines by all that was
+  /// planned.
   void begin(const std::string& activity);
-  /// A running activity is tried again and takes once more, from the values of now on, all that was planned for
-  /// it (R99). What has been seen to be taken since then counts no more.
+  /// Charges a running activity that is tried again once more, from the values of `now` on, with all that was
+  /// planned for it (R99). Amounts that were seen to be taken since then are no longer charged.
   void charge_again(const std::string& activity, const temporal::Lookup& now);
-  /// The activity has ended: nothing more is taken by it.
+  /// Notes that the activity has ended and takes nothing more.
   void settle(const std::string& activity);
-  /// The same; but what a first attempt did may not be seen yet: until a timeline has another value than now, the
-  /// activity counts as before.
+  /// Notes the same, where the effect of a first attempt may not be observed yet: until a timeline has another
+  /// value than `now`, the activity counts as before.
   void end(const std::string& activity, const temporal::Lookup& now);
 
-  /// The first waiting activity, in plan order, whose pre conditions will fail on the values of now.
+  /// Returns the first waiting activity, in plan order, whose pre conditions will fail on the values of
+  /// `now`.
   std::optional<PredictedConflict> conflict(const temporal::Lookup& now) const;
 
  private:
-  /// The values that a timeline may have.
+  /// Bounds the values that a timeline may have.
   struct Range {
     double low, high;
   };
-  /// A part of the plan: what its waiting activities add up to, and the range that they ask of the value
+  /// Sums up a part of the plan: what its waiting activities add, and the range that they ask of the value
   /// before the first of them.
   struct Segment {
     double change = 0;
@@ -62,8 +64,8 @@ class ResourceMonitor {
     Segment();
     bool holds(const Range& values) const;
   };
-  /// The segments of one timeline as a tree in an array: node i holds 2i and 2i + 1, the leaves are the
-  /// activities that touch the timeline.
+  /// Holds the segments of one timeline as a tree in an array: node i joins 2i and 2i + 1, and the leaves are
+  /// the activities that touch the timeline.
   struct Timeline {
     std::vector<std::size_t> activities;
     std::vector<Segment> tree;
@@ -77,22 +79,23 @@ class ResourceMonitor {
     temporal::Condition pre;
     std::map<std::string, double> changes;  ///< by timeline, the amounts that it adds
   };
-  /// What a further attempt takes from a timeline.
+  /// Holds what a further attempt takes from a timeline.
   struct Charge {
     std::string activity;
     double change = 0;
-    double expected = 0;  ///< value when all of it has been taken, by nobody else
+    double expected = 0;  ///< value once it has taken all, if nobody else takes any
     double remaining(double value) const;
   };
 
-  /// The value of now, with what is charged, and with all or nothing of what running activities may still do.
+  /// Returns the range of the present value after charges, with nothing or all of what running activities may
+  /// still do.
   Range reckoned(const std::string& timeline, double value) const;
   static Segment join(const Segment& first, const Segment& second);
 
   std::map<std::string, Timeline> timelines_;
   std::map<std::string, std::vector<Charge>> charges_;  ///< by timeline
-  std::set<std::size_t> under_way_;                     ///< in their first attempts
-  /// First attempts that have ended, by timeline: the value at their end.
+  std::set<std::size_t> under_way_;                     ///< activities in their first attempts
+  /// Holds, by timeline, the value at the end of first attempts whose effect is not observed yet.
   std::map<std::string, std::map<std::size_t, double>> unseen_ends_;
   std::vector<Asked> activities_;
   std::unordered_map<std::string, std::size_t> index_of_;

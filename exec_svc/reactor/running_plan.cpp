@@ -36,11 +36,11 @@ const char* code_of(RecoveryAction action) {
   return "recovery.contingency";
 }
 
-/// Activities whose windows are told to the ground when these move: what a screen shows, and no work in the
+/// Counts the activities whose windows are reported when they move: what a screen shows, without work in the
 /// size of the plan.
 constexpr std::size_t kReportedAhead = 32;
 
-/// Activities that one event names.
+/// Bounds the activities that one event names.
 constexpr std::size_t kNamedActivities = 5;
 
 bool under_way(const StepStatus& step) {
@@ -96,8 +96,8 @@ void RunningPlan::step(Time now, const ReactorInputs& inputs) {
   if (!state_->out.steps.empty() && state_->phase == MissionPhase::executing) report_windows();
 }
 
-// An activity without a command is the only one that knows what it has made of a timeline. Each value counts, also one
-// that the next activity changes at the same time.
+// Concludes values of timelines from activities without a command, which nobody else can tell. Each value counts,
+// also one that the next activity changes at the same time.
 void RunningPlan::conclude(const std::vector<StepStatus>& changes, Time now) {
   // An engine that plans all the time keeps such timelines itself.
   const bool engine_knows = state_->mission->executive.plans_continuously();
@@ -144,7 +144,7 @@ void RunningPlan::close(ExecutedOutcome outcome, std::string reason) {
   state_->out.executed = last_executed_;
 }
 
-// What is broken is over when nothing of it runs any more.
+// Closes the record; a broken plan is over when nothing of it runs any more.
 void RunningPlan::close_record() {
   if (!record_.open()) return;
   const executive::Outcome outcome = executive_.outcome();
@@ -161,8 +161,8 @@ void RunningPlan::close_record() {
   }
 }
 
-/// An engine that plans all the time sends activities in any order and changes a plan of which a part has
-/// happened; a planner's plan comes in the order of its starts, and all of it waits.
+/// Sets up the monitors. An engine that plans all the time sends activities in any order and changes a plan
+/// of which a part has happened; a planner's plan comes in the order of its starts, and all of it waits.
 void RunningPlan::watch(const temporal::FlexiblePlan& plan, bool launched_again) {
   const mission::MissionModel& mission = *state_->mission;
   std::set<std::string> predicted;
@@ -306,7 +306,8 @@ void RunningPlan::restore_concluded(const std::map<std::string, temporal::Value>
   executive_.step(Time{0}, known);
 }
 
-/// What the ground sets, nobody observes: it is so from then on, until an activity makes something else of it.
+/// Passes observations on. A value that the ground sets is observed by nobody: it holds until an activity
+/// changes it.
 void RunningPlan::tell_observed(const std::vector<Observation>& observations, Inputs& told) const {
   for (const Observation& one : observations)
     (is_set_by_ground(one.timeline) ? told.settings : told.observations).push_back(one);
@@ -317,7 +318,7 @@ bool RunningPlan::is_set_by_ground(const std::string& timeline) const {
   return std::ranges::find(values, timeline) != values.end();
 }
 
-/// Facts are derived from observations here, where the metadata is; the executive sees each as one more
+/// Derives facts from observations, since the metadata are here; the executive sees each as one more
 /// timeline.
 std::vector<Observation> RunningPlan::changed_conditions() {
   std::vector<Observation> out;
@@ -342,7 +343,7 @@ void RunningPlan::forward(Outputs done, Time now) {
   if (done.next_wake) state_->wake_at(*done.next_wake);
 }
 
-/// Windows of what starts next are told again where real events have moved them.
+/// Reports the windows of what starts next again where real events have moved them.
 void RunningPlan::report_windows() {
   for (const StepStatus& step : executive_.upcoming(kReportedAhead)) {
     const auto [reported, added] = reported_starts_.try_emplace(step.activity, step.earliest_start);

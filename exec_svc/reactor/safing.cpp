@@ -11,7 +11,8 @@ using executive::OutcomeKind;
 
 namespace {
 
-// So often a fall-back is sent again in a later epoch; each time the executive has learned one.
+// Bounds how often a fall-back is sent again in a later epoch, of which the executive has learned by each
+// refusal.
 constexpr std::uint32_t kRefusals = 8;
 
 }  // namespace
@@ -133,10 +134,10 @@ void Safing::confirm(temporal::Time now) {
   if (lacks.empty()) {
     awaited_ = false;
     const bool goes_on = std::exchange(unheard_, false);
-    const char* next = goes_on ? "is heard again, and goes on: " : "made safe, waiting for the ground: ";
+    const char* next = goes_on ? "is seen to be at rest, and goes on: " : "made safe, waiting for the ground: ";
     state_->report(goes_on ? Severity::warning : Severity::error, "robot.safe", next + reason_);
     if (!goes_on || state_->goals.open().empty()) return;
-    state_->want_plan("the robot is heard again and safe");
+    state_->want_plan("the robot is seen to be safe");
     state_->wake_at(now);
     return;
   }
@@ -151,7 +152,7 @@ void Safing::confirm(temporal::Time now) {
   }
 }
 
-/// What is not known yet of a safe robot, in plain words; empty: nothing.
+/// Returns in plain words what is missing until the robot counts as safe, or an empty text if nothing is.
 std::string Safing::missing() const {
   std::string out;
   const auto add = [&](const std::string& what) { out += (out.empty() ? "" : ", ") + what; };

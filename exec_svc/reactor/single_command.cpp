@@ -23,7 +23,7 @@ std::string names_of(const mission::MissionModel& mission) {
   return out.empty() ? "none" : out;
 }
 
-// "to=w1" as the argument `to`; nothing: it is none.
+// Reads "to=w1" as the argument `to`, or returns nothing if the text is no argument.
 std::optional<temporal::Property> argument_of(const std::string& text) {
   const std::size_t equals = text.find('=');
   if (equals == 0 || equals == std::string::npos) return std::nullopt;

@@ -37,7 +37,7 @@ std::optional<Roomy> with_longest_commands(const FlexiblePlan& plan) {
   return out;
 }
 
-// For each point the first of those that rigid constraints hold together with it.
+// Returns for each point the first of those that rigid constraints hold together with it.
 std::vector<TimePoint> rigid_groups(const FlexiblePlan& plan) {
   std::vector<TimePoint> group(plan.point_count);
   std::iota(group.begin(), group.end(), TimePoint{0});

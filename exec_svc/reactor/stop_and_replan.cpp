@@ -20,8 +20,8 @@ std::string names_of(const std::vector<const Component*>& components) {
 
 }  // namespace
 
-/// A wish for a plan that comes up during a planner call cancels it and waits for its end: there is never
-/// more than one call.
+/// Decides the next phase. A wish for a plan that comes up during a planner call cancels the call and waits
+/// for its end, since there is never more than one.
 void StopAndReplan::step(Time now, const ReactorInputs& inputs) {
   MissionState& state = parts_.state;
   const PlanReply* reply = parts_.call.take(inputs);
@@ -54,7 +54,7 @@ void StopAndReplan::begin_pause(Time now) {
   parts_.plan.cancel(now);
 }
 
-/// Told once for each wish, and again when others are awaited: the reason of the wish remembers it.
+/// Reports once for each wish, and again when others are awaited; the reason of the wish remembers that.
 void StopAndReplan::tell_awaited(const std::vector<const Component*>& unobserved) {
   MissionState& state = parts_.state;
   std::string awaited = kAwaits;

@@ -71,7 +71,7 @@ void print(const RunReplay& run) {
             << "\n  now:       " << or_nothing(run.divergence->got) << "\n";
 }
 
-// As the executive that wrote the journal read it.
+// Reads the mission as the executive that wrote the journal read it.
 roci::exec::mission::MissionModel mission_of(const Journal& journal, const Options& options) {
   const fs::path mission = options.mission.empty() ? fs::path(journal.text("mission")) : options.mission;
   if (mission.empty()) throw JournalError("the journal names no mission; give its folder with --mission");

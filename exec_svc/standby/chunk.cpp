@@ -6,12 +6,6 @@ namespace roci::exec::standby {
 
 using journal::Position;
 
-namespace {
-
-constexpr std::size_t kPartBytes = 128 * 1024;
-
-}  // namespace
-
 std::uint32_t checksum(const Chunk& chunk) {
   boost::crc_32_type crc;
   for (const std::uint64_t number :

@@ -2,6 +2,7 @@
 // plain values.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -10,11 +11,11 @@
 
 namespace roci::exec::standby {
 
-/// Is one message of the journal's copy.
+/// Holds one message of the journal's copy.
 struct Chunk {
-  std::uint64_t leader = 0;    ///< epoch of who sends it
-  journal::Position after;     ///< a batch: of the journal that it fits
-  journal::Position at;        ///< is where the journal stands with it
+  std::uint64_t leader = 0;    ///< epoch of the sender
+  journal::Position after;     ///< if a batch: position of the journal that it fits
+  journal::Position at;        ///< position of the journal with it
   std::uint32_t part = 0;      ///< numbers this part of a whole journal, from 0
   std::uint32_t parts = 0;     ///< counts the parts of a whole journal; 0: a batch
   std::uint32_t checksum = 0;  ///< covers all other members
@@ -31,6 +32,9 @@ struct TransferProgress {
   std::uint32_t parts = 0;
   bool operator==(const TransferProgress&) const = default;
 };
+
+/// So many bytes of a whole journal has each of its parts at most.
+inline constexpr std::size_t kPartBytes = 128 * 1024;
 
 /// Splits a whole journal into parts, each sealed with its checksum.
 std::vector<Chunk> split(std::uint64_t leader, const journal::Position& at, const std::string& whole);

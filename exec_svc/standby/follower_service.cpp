@@ -4,6 +4,7 @@
 #include <iterator>
 #include <utility>
 
+#include "exec_svc/limits.hpp"
 #include "exec_svc/standby/standby_wire_service.hpp"
 #include "services/log/log.hpp"
 #include "services/node/make_event.hpp"
@@ -18,7 +19,7 @@ namespace topics = services::topics;
 namespace {
 
 constexpr Moment kHandOverAgain = std::chrono::seconds(1);
-// Who gave an order and is still there has said it to the leader by then.
+// Bounds the time in which givers of orders that are still there repeat them to the leader.
 constexpr Moment kOrdersHeard = std::chrono::seconds(5);
 constexpr std::size_t kToldOrders = 20;  // one by one
 constexpr std::size_t kToldToLack = 64;  // lines of the log, for one follower
@@ -71,12 +72,27 @@ void FollowerService::take(const Chunk& chunk) {
   if (lead_) return;
   const JournalCopy::Result taken = copy_.take(chunk, lease_->epoch());
   if (taken == JournalCopy::Result::old || taken == JournalCopy::Result::corrupt) return;
+  if (taken == JournalCopy::Result::excess) tell_excess(chunk);
   lease_->hear_leader(chunk.leader, moment());
   if (taken == JournalCopy::Result::whole) {
     handed_over_ = apart_.goals();
     orders_replaced_at_ = moment();
   }
   if (taken != JournalCopy::Result::known) say();
+}
+
+// It is asked for anew by what say() tells that this member has.
+void FollowerService::tell_excess(const Chunk& chunk) {
+  const std::uint64_t times = refusals_.note("copy");
+  if (times == 0) return;
+  const std::string text = "a whole journal of " + std::to_string(chunk.parts) + " parts, one of " +
+                           std::to_string(chunk.bytes.size()) + " bytes, is refused: there is room for " +
+                           std::to_string(kJournalCopyBytes >> 20) + " MiB in parts of " +
+                           std::to_string(kPartBytes >> 10) + " KiB, as many as were announced (" +
+                           std::to_string(times) +
+                           " so far); until another one comes the standby cannot take over";
+  services::log::warning(text);
+  events_.write(services::node::make_event(v1::SEVERITY_WARNING, "journal.no_room", text));
 }
 
 // Until the copy of the leader's journal shows that it has them.
@@ -88,7 +104,7 @@ void FollowerService::hand_over() {
   for (const GoalRecord& goal : handed_over_) goals_.write(to_wire(goal, executive_, lease_->self()));
 }
 
-// They are not merged (orders_apart.hpp).
+// Reports orders that the leader lacks; they are not merged (orders_apart.hpp).
 void FollowerService::tell_lost_orders() {
   if (apart_orders_.empty() || (!lead_ && moment() - orders_replaced_at_ < kOrdersHeard)) return;
   const auto lost = unknown_orders(std::exchange(apart_orders_, {}), *journal_);
@@ -118,7 +134,8 @@ void FollowerService::turn() {
   node_.stop();
 }
 
-// Once for the same owners: who has a part gives it back and asks again, for as long as the others are away.
+// Reports missing leases once for the same owners: a member that holds a part gives it back and asks again
+// for as long as the others are away.
 void FollowerService::tell_what_it_lacks(const Lease::Turn& turn) {
   const std::string lacks = turn.lacks + (turn.doubtful ? " in doubt" : "");
   if (turn.lacks.empty() || told_to_lack_.size() >= kToldToLack || !told_to_lack_.insert(lacks).second)

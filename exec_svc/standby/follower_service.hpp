@@ -12,6 +12,7 @@
 #include "exec_svc/standby/lease.hpp"
 #include "exec_svc/standby/orders_apart.hpp"
 #include "exec_svc/standby/persisted_term_file.hpp"
+#include "services/bounds/tally.hpp"
 #include "services/node.hpp"
 #include "services/publisher.hpp"
 
@@ -20,11 +21,11 @@ namespace roci::exec::standby {
 /// Follows until it is this member's turn to lead or the run is over; then it stops the node.
 class FollowerService {
  public:
-  /// Stands on an observer's node, and so outside the simulated clock. All arguments must outlive it.
-  /// `executive` is the logical name of the pair; what is said by and for another one is passed over.
-  /// Goals that this member took in while it led apart and that the leader does not have are handed over to that
-  /// one; `apart` keeps them until then. Orders are not: of those that it took apart and the leader does not hear from
-  /// who gave them, operators are told (event order.lost).
+  /// Uses an observer's node, outside the simulated clock. All arguments must outlive this object. `executive` is the
+  /// logical name of the pair; messages of and for another one are ignored. Goals that this member took in while it
+  /// led apart and that the leader lacks are handed over to the leader; `apart` keeps them until then. Orders are not
+  /// handed over: operators are told of those that it took apart and that their givers do not repeat to the leader
+  /// (event order.lost).
   FollowerService(services::Node& node, std::string executive, Lease& lease, journal::Journal& journal,
                   PersistedTermFile& persisted_term, GoalsApart apart);
 
@@ -37,6 +38,7 @@ class FollowerService {
   void hear(const v1::LeaseMessage& member);
   void hear(const v1::LeaseState& state);
   void take(const Chunk& chunk);
+  void tell_excess(const Chunk& chunk);
   void hand_over();
   void tell_lost_orders();
   void tell_what_it_lacks(const Lease::Turn&);
@@ -51,6 +53,7 @@ class FollowerService {
   JournalCopy copy_;
   std::optional<Lease::Turn> lead_;
   std::set<std::string> told_to_lack_;
+  services::bounds::Tally refusals_;
   bool over_ = false;
   GoalsApart apart_;
   std::vector<goals::GoalRecord> handed_over_;  ///< that the leader may not have yet

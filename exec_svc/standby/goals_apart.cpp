@@ -46,8 +46,7 @@ void GoalsApart::keep(const Journal& replaced) const {
   }
   journal::remove_database_logs(unfinished);
   if (durability_ == Durability::power) journal::sync_path(unfinished);
-  fs::rename(unfinished, file);
-  if (durability_ == Durability::power) journal::sync_path(file.parent_path());
+  journal::put_in_place(unfinished, file, durability_);
 }
 
 std::vector<GoalRecord> GoalsApart::goals() const {

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "exec_svc/limits.hpp"
+
 namespace roci::exec::standby {
 
 using journal::JournalError;
@@ -26,16 +28,26 @@ JournalCopy::Result JournalCopy::take_batch(const Chunk& chunk) {
   return Result::batch;
 }
 
+JournalCopy::Result JournalCopy::forget_arrival() {
+  arrival_ = {};
+  std::string().swap(arriving_);
+  return Result::excess;
+}
+
 JournalCopy::Result JournalCopy::take_part(const Chunk& chunk) {
   if (has_ == chunk.at) return Result::known;
+  if (chunk.parts > kJournalCopyBytes / kPartBytes || chunk.bytes.size() > kPartBytes)
+    return forget_arrival();
   if (chunk.part == 0 && (arrival_.at != chunk.at || arrival_.parts == 0)) {
     arrival_ = {chunk.at, 0};
+    announced_ = chunk.parts;
     arriving_.clear();
   }
   if (arrival_.at != chunk.at || chunk.part > arrival_.parts) return Result::gap;
   if (chunk.part < arrival_.parts) return Result::known;
+  if (chunk.parts != announced_) return forget_arrival();
   arriving_ += chunk.bytes;
-  if (++arrival_.parts < chunk.parts) return Result::part;
+  if (++arrival_.parts < announced_) return Result::part;
   const std::string whole = std::exchange(arriving_, {});
   arrival_ = {};
   if (before_replacement_) before_replacement_();

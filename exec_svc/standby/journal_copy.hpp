@@ -12,7 +12,8 @@
 
 namespace roci::exec::standby {
 
-/// Takes only what fits on the journal as it is, or a whole journal in its place.
+/// Takes only what fits on the journal as it is, or a whole journal in its place. Of a whole one that arrives it keeps
+/// kJournalCopyBytes at most, whatever comes (exec_svc/limits.hpp).
 class JournalCopy {
  public:
   /// `before_replacement` is called with the journal complete, right before another one takes its place; what it throws
@@ -27,12 +28,13 @@ class JournalCopy {
     known,    ///< this journal has it
     gap,      ///< something before it is missing, or this journal has another past
     corrupt,  ///< refused
-    old,      ///< its leader's epoch is over; refused
+    excess,  ///< more than there is room for, or than was announced: refused, and what came of that journal forgotten
+    old,  ///< its leader's epoch is over; refused
   };
   /// Takes a chunk; `epoch` is the latest that the follower knows of.
   Result take(const Chunk& chunk, std::uint64_t epoch);
 
-  /// Returns how far the copy has come. It is kOwnPast after a batch that does not fit, though its position
+  /// Returns how far the copy has come. It is kForkedHistory after a batch that does not fit, though its position
   /// does: the whole journal is wanted then.
   const journal::Position& has() const { return has_; }
   const TransferProgress& arrival() const { return arrival_; }
@@ -40,10 +42,12 @@ class JournalCopy {
  private:
   Result take_batch(const Chunk& chunk);
   Result take_part(const Chunk& chunk);
+  Result forget_arrival();
 
   journal::Journal* journal_;
   journal::Position has_;
   TransferProgress arrival_;
+  std::uint32_t announced_ = 0;  ///< parts of the journal that arrives
   std::string arriving_;
   std::function<void()> before_replacement_;
 };

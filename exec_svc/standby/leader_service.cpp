@@ -82,7 +82,8 @@ void LeaderService::report(Lease::Change change, const std::string& reason) {
     events_.push_back({Severity::info, "standby.ready", "an executive stands by: " + reason});
 }
 
-// Nobody leads then, as far as this one knows: who commands has the leases of all owners.
+// Reports lost leases: then nobody commands, as far as this member knows, since commanding needs the leases
+// of all owners.
 void LeaderService::report_leases() {
   const auto since = lease_->unleased_since();
   const bool split = since && (told_split_ || moment() - *since >= 2 * lease_->settings().term);

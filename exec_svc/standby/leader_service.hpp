@@ -20,16 +20,17 @@
 
 namespace roci::exec::standby {
 
-/// Is what leaves Node::run() when a leader is none any more.
+/// Leaves Node::run() when a leader no longer leads.
 class StandDown : public std::runtime_error {
  public:
   StandDown(const std::string& reason, bool is_superseded, bool has_told_split = false)
       : std::runtime_error(reason), superseded(is_superseded), told_split(has_told_split) {}
-  const bool superseded;  ///< says whether another leader leads, for all it knows
-  const bool told_split;  ///< says whether operators were told of a split set, and not yet of its end
+  const bool superseded;  ///< another leader leads, for all it knows
+  const bool told_split;  ///< operators were told of a split set, and not yet of its end
 };
 
-/// Lets nothing out that the follower should have and has not, and no command without the leases of all owners.
+/// Sends nothing out before the follower has it where it should, and no command without the leases of all
+/// owners.
 class LeaderService {
  public:
   /// Takes a `lease` that leads already; its epoch begins in the journal. With `told_split`, operators were told of a
@@ -50,7 +51,7 @@ class LeaderService {
   bool take_held();
   /// From now on the plan commands these owners, and their leases are needed.
   void require(std::set<std::string> owners) { lease_->require(std::move(owners)); }
-  /// Hears of goals that the other one has, which led apart.
+  /// Calls `take` with goals that the other member, which led apart, hands over.
   void on_hand_over(std::function<void(goals::GoalRecord)> take) { take_goal_ = std::move(take); }
   /// Takes in that an owner refused a command of this epoch, as it holds `epoch`. Throws StandDown.
   void refused(std::uint64_t epoch);
@@ -84,7 +85,7 @@ class LeaderService {
   std::deque<PendingOutput> held_;
   std::vector<reactor::Event> events_;
   std::function<void(goals::GoalRecord)> take_goal_;
-  std::optional<journal::Position> sending_;     ///< what goes out right now was decided here
+  std::optional<journal::Position> sending_;     ///< position at which what goes out now was decided
   std::optional<journal::Position> told_alone_;  ///< newest that was acknowledged as journaled here alone
   bool told_split_;
   services::Publisher<v1::LeaseMessage> messages_;

@@ -9,7 +9,7 @@ using journal::Position;
 
 namespace {
 
-// Who has lost its journal may have led in as many epochs that nobody can tell it of.
+// Exceeds the epochs in which a member that lost its journal may have led without anybody to tell it.
 constexpr std::uint64_t kUntoldEpochs = 100;
 constexpr int kRenewalsSeen = 3;     // may pass before a leader counts as one that does not renew
 constexpr std::uint64_t kNear = 64;  // batches; so close a follower is waited for
@@ -63,11 +63,11 @@ void Lease::hear_leader(std::uint64_t epoch, Moment now) {
   if (role_ == Role::following && epoch == persisted_term_.epoch) leaderless_since_ = now;
 }
 
-void Lease::hear(const OwnerWord& word, Moment now) {
-  owner_leases_.hear(word, now);
-  note_led(word.newest_epoch);
+void Lease::hear(const LeaseReport& report, Moment now) {
+  owner_leases_.hear(report, now);
+  note_led(report.newest_epoch);
   // Somebody has commanded in a later epoch, and this member has not heard of it.
-  note_epoch(std::min(word.newest_epoch, persisted_term_.epoch + kEpochJump));
+  note_epoch(std::min(report.newest_epoch, persisted_term_.epoch + kEpochJump));
 }
 
 bool Lease::believable(std::uint64_t epoch) const {
@@ -129,7 +129,8 @@ Lease::Turn Lease::follow(const Position& newest, Moment now) {
   const bool wanted_before = request_.wanted;
   // It asks early, so that the way to the owners takes nothing of the time in which its right holds.
   const bool soon = right_holds(newest, now) && now - leaderless_since_ >= settings_.owner_term;
-  // What a leader that lives lacks for a moment, and its follower is granted meanwhile, keeps both from commanding.
+  // A lease that a living leader lacks for a moment, and that its follower is granted meanwhile, would keep both
+  // from commanding.
   const bool leader_lives = owner_leases_.other_renews(kRenewalsSeen * settings_.renewal, now);
   ask_owners(!leader_lives && (claimed ? !claimed->agreed : soon), newest, now);
   Turn out;
@@ -185,7 +186,7 @@ bool Lease::wins(const LeaseMessage& other, const Position& newest) const {
 Lease::Turn Lease::lead(const Claim& claim, const Position& newest, Moment now) {
   std::uint64_t holds = persisted_term_.holds;
   if (!is_own(self_, newest.epoch)) holds = std::max(holds, newest.epoch);
-  // Somebody led in an epoch of which this journal has nothing: what was done then is not known here.
+  // Somebody led in an epoch that this journal lacks, so what was done then is not known here.
   const bool lacks_epoch = persisted_term_.epoch > newest.epoch || told_epoch_ > holds;
   const bool doubtful = claim.doubtful || lacks_epoch;
   if (doubtful) holds = std::max({holds, told_epoch_, persisted_term_.epoch});
@@ -208,7 +209,7 @@ Lease::Turn Lease::keep_leading(const Position& newest, Moment now) {
     persisted_term_.alone = false;
     return {Change::stand_down, "an owner obeys a later epoch"};
   }
-  // This holds alone, too: to others it was dead meanwhile, so it joins them anew.
+  // This holds for a lone leader, too: to others it was dead meanwhile, so it joins them anew.
   if (std::exchange(settled_, true) && now - spoke_at_ >= settings_.term) {
     return {Change::stand_down,
             "it stood still for " + milliseconds_text(now - spoke_at_) + ", longer than its lease"};

@@ -13,19 +13,20 @@
 
 namespace roci::exec::standby {
 
+/// Says whether a member of the pair leads.
 enum class Role { following, leading };
 
-/// What a member says of itself.
+/// Holds what a member says of itself.
 struct LeaseMessage {
   Member member = Member::first;
   Role role = Role::following;
   std::uint64_t epoch = 0;  ///< the highest that it knows of; a leader's own
-  journal::Position has;    ///< is what its journal has
+  journal::Position has;    ///< position of its journal
   /// Says of a leader that the other may take over once this message is a term old; says of a follower that
   /// it will, and that it hears all owners of commands.
   bool entitled = false;
-  /// Says of a leader the most that it has known the other to have; with less on its disk, as after its loss, the other
-  /// is not entitled.
+  /// Says, of a leader, the most that it has known the other to have; if the other has less, as after losing its disk,
+  /// it is not entitled.
   journal::Position receipt;
   bool searching = false;  ///< a follower that has heard no leader for a term
   Moment said{0};          ///< counts on the clock of who says it
@@ -39,21 +40,22 @@ struct LeaseSettings {
   Moment term = std::chrono::seconds(2);
   Moment renewal = term / 8;           ///< lies between two messages
   Moment progress_timeout = term / 2;  ///< bounds the time without progress of the other's journal
-  /// A follower may take over from a term after it last heard the leader until a term and this after it said
-  /// what that message echoes; later its right has lapsed, so that one that was stopped does not use it late,
-  /// and a message that came late gives none.
+  /// Bounds how late a follower may take over: from a term after it last heard the leader until a term and
+  /// this after it sent what that message echoes. Later its right has lapsed, so that a process that was
+  /// stopped does not use it late and a late message gives no right.
   Moment takeover_window = term / 2;
-  Moment solo_timeout = 10 * term;  ///< passes until one leads in doubt that hears nobody
-  /// An owner's lease lasts so long beyond its renewal. It is over before a follower may take over, so that the
-  /// owners of a leader that died are free by then.
+  Moment solo_timeout = 10 * term;  ///< time until one that hears nobody leads in doubt
+  /// Limits an owner's lease after each renewal. It ends before a follower may take over, so that
+  /// the owners of a leader that died are free by then.
   Moment owner_term = 3 * term / 4;
 };
 
-/// Holds what must be on the disk before anything that stands on it is said.
+/// Holds what must be on the disk before anything based on it is sent.
 struct PersistedTerm {
   std::uint64_t epoch = 0;  ///< the highest heard of or used
   bool alone = false;       ///< led in that epoch while the other was not entitled
-  /// The newest epoch of the other member's that this one's journal goes on from, or that it knew when it planned anew.
+  /// Holds the newest epoch of the other member from which this one's journal goes on, or that it knew when it planned
+  /// anew.
   std::uint64_t holds = 0;
   bool operator==(const PersistedTerm&) const = default;
 };
@@ -63,8 +65,8 @@ struct PersistedTerm {
 /// robot never replaces one that has it.
 class Lease {
  public:
-  /// A member that knows an epoch takes no wider step from it at a time: the pair rises by two with each change of
-  /// its leader, so a wider one comes from no member.
+  /// Bounds the step from a known epoch to the next: the pair's epoch rises by two with each change of leader, so
+  /// a wider step comes from no member.
   static constexpr std::uint64_t kEpochJump = 1000;
 
   /// With `superseded`, this member led until another one did. `owners` are those that the plan commands; with none,
@@ -76,11 +78,11 @@ class Lease {
   void require(std::set<std::string> owners) { owner_leases_.require(std::move(owners)); }
 
   void hear(const LeaseMessage& message, Moment now);
-  /// Takes in that something of the leader of this epoch's journal came.
+  /// Takes in that a part of the journal came from the leader of this epoch.
   void hear_leader(std::uint64_t epoch, Moment now);
   /// Takes in what an owner says of its lease. A leader that learns from it that the other member has led in an epoch
   /// that its journal does not hold stands down and leads anew, in doubt: what was commanded then is not known here.
-  void hear(const OwnerWord& word, Moment now);
+  void hear(const LeaseReport& report, Moment now);
   /// Takes in that an owner refused this leader: somebody leads in this epoch or a later one. Whoever of the pair
   /// leads next does so in a later one still.
   void refused(std::uint64_t epoch);
@@ -88,16 +90,16 @@ class Lease {
   enum class Change {
     none,
     lead,        ///< leads from now on in epoch()
-    stand_down,  ///< this object has done its work: nothing may be sent, a follower begins anew
+    stand_down,  ///< nothing more may be sent; a new object follows
     alone,       ///< the follower is gone and has no right any more
     paired,
   };
   struct Turn {
     Change change = Change::none;
     std::string reason;     ///< says in plain words why it changed
-    bool doubtful = false;  ///< lead: the other may have gone on from this journal, unheard, or has
+    bool doubtful = false;  ///< lead: the other may have gone on from this journal unheard, or has
     bool speak = false;     ///< message() is to be sent now
-    std::string lacks{};  ///< following: it would lead for this reason, and lacks the leases of these owners
+    std::string lacks{};    ///< following: why it would lead, and which owners' leases it lacks
   };
   /// Says what to do now; it is to be called often, and after everything heard. When persisted_term() has
   /// changed, it goes to the disk before anything else is done.
@@ -136,7 +138,7 @@ class Lease {
   }
 
   LeaseMessage message(const journal::Position& newest) const;
-  /// Is to be sent to all owners whenever message() is sent.
+  /// Returns what is to be sent to all owners whenever message() is sent.
   OwnerRequest request() const { return request_; }
   const PersistedTerm& persisted_term() const { return persisted_term_; }
   /// Returns, of a leader that stands down, whether another one leads.
@@ -148,8 +150,8 @@ class Lease {
   std::uint64_t epoch() const { return persisted_term_.epoch; }
 
  private:
-  /// Is the state of a leader. One that is catching_up waits for receipts, as the follower is nearly there;
-  /// one that is revoking has taken the follower's right back, which the follower may not know.
+  /// Names the states of a leader. One that is catching_up waits for receipts, as the follower is nearly
+  /// there; one that is revoking has taken the follower's right back, which the follower may not know.
   enum class ReplicationState { alone, catching_up, paired, revoking };
   struct Heard {
     LeaseMessage message;
@@ -159,10 +161,10 @@ class Lease {
   bool believable(std::uint64_t epoch) const;
   void note_epoch(std::uint64_t epoch);
   void note_led(std::uint64_t epoch);
-  /// Is why a follower would lead, and what that takes.
+  /// Says why a follower would lead, and what that takes.
   struct Claim {
     std::string reason;
-    bool agreed = false;    ///< with the other, which follows: no owner has to be asked first
+    bool agreed = false;    ///< the other agrees and follows: no owner has to be asked first
     bool doubtful = false;  ///< the other may have gone on from this journal, unheard
   };
   Turn follow(const journal::Position& newest, Moment now);
@@ -196,24 +198,24 @@ class Lease {
   std::optional<Moment> unleased_since_;  ///< leading
 
   bool takeover_forbidden_;    ///< following: the newest leader does not want it to take over
-  bool entitled_ = false;      ///< following: by its newest message, with a journal that has
+  bool entitled_ = false;      ///< following: by the leader's newest message, with a journal that has
   journal::Position receipt_;  ///< this at least,
-  Moment entitled_since_{0};   ///< is when it was said at the earliest
+  Moment entitled_since_{0};   ///< earliest time at which that was said
   Moment leaderless_since_;
   std::uint64_t told_epoch_ = 0;  ///< following: the newest epoch in which the other is said to have led
   Moment started_;
 
   std::uint64_t own_epoch_ = 0;      ///< leading
   std::uint64_t unknown_epoch_ = 0;  ///< the other has led in it, and this leader's journal does not hold it
-  journal::Position most_;           ///< that the other was heard to have since this one leads
+  journal::Position most_;           ///< most that the other reported since this one leads
   bool settled_ = false;             ///< had a turn since it leads; opening its endpoints may take a while
   ReplicationState replication_ = ReplicationState::alone;
-  Moment entitled_at_{0};  ///< is when this leader last said that the other may take over
+  Moment entitled_at_{0};  ///< when this leader last said that the other may take over
   Moment replication_since_{0};
-  Moment behind_since_{0};  ///< the other's journal, without progress
+  Moment behind_since_{0};  ///< since when the other's journal makes no progress
   bool behind_ = false;
   journal::Position progress_;
-  journal::Position joined_at_;  ///< newest when the follower began to be waited for
+  journal::Position joined_at_;  ///< newest position when the leader began to wait for the follower
 };
 
 }  // namespace roci::exec::standby

@@ -23,7 +23,7 @@ constexpr std::string_view kGiven = "order ";
 constexpr std::string_view kStage = "ordered ";
 constexpr std::string_view kStageNumber = " stage=";
 
-// A line of the trace about orders, without the time before it.
+// Holds a line of the trace about orders, without the time before it.
 struct Line {
   Time at;
   std::string_view text;
@@ -38,7 +38,7 @@ void each_line(const Journal& journal, const std::function<void(const Line&)>& v
   });
 }
 
-// The key and the stage of "ordered KEY stage=N …".
+// Returns the key and the stage of "ordered KEY stage=N …".
 std::optional<std::pair<std::string, OrderStage>> stage_of(std::string_view text) {
   if (!text.starts_with(kStage)) return std::nullopt;
   text.remove_prefix(kStage.size());

@@ -1,5 +1,6 @@
-// Orders that an executive had taken before its journal was replaced by the one of who leads. Unlike goals they are not
-// merged: an old hold or release must not overrule what the leader was told since. Who gave them has to hear that.
+// Orders apart are those that an executive had taken before its journal was replaced by the leader's. Unlike goals they
+// are not merged: an old hold or release must not overrule what the leader was told since. Those who gave them are
+// told.
 #pragma once
 
 #include <string>
@@ -10,7 +11,7 @@
 
 namespace roci::exec::standby {
 
-/// Is an order that was acknowledged and not refused, by what the journal's trace says of it.
+/// Describes an order that was acknowledged and not refused, by what the journal's trace says of it.
 struct TakenOrder {
   std::string key;   ///< reads "issuer/id"
   std::string what;  ///< reads "hold arm"
@@ -20,8 +21,8 @@ struct TakenOrder {
 /// Returns the orders of this journal, in the order in which they came.
 std::vector<TakenOrder> taken_orders(const journal::Journal& journal);
 
-/// Returns those of `taken` that the journal which took the other one's place knows nothing of. It says nothing of
-/// those that are older than what it still tells.
+/// Returns the orders of `taken` that the successor's journal does not know, without those that are older than
+/// what it still holds.
 std::vector<TakenOrder> unknown_orders(std::vector<TakenOrder> taken, const journal::Journal& successor);
 
 }  // namespace roci::exec::standby

@@ -14,16 +14,16 @@ constexpr std::size_t kOwners = 256;  // that are heard; a mission has fewer
 OwnerLeases::OwnerLeases(Member self, std::set<std::string> owners, Moment patience)
     : self_(self), owners_(std::move(owners)), patience_(patience) {}
 
-void OwnerLeases::hear(const OwnerWord& word, Moment now) {
-  if (heard_.size() >= kOwners && !heard_.contains(word.owner)) return;
-  Heard& heard = heard_[word.owner];
-  const OwnerWord& before = heard.word;
-  const bool other = word.holder && word.holder != self_;
-  if (other && before.holder == word.holder && before.epoch == word.epoch && word.echo > before.echo)
+void OwnerLeases::hear(const LeaseReport& report, Moment now) {
+  if (heard_.size() >= kOwners && !heard_.contains(report.owner)) return;
+  Heard& heard = heard_[report.owner];
+  const LeaseReport& before = heard.report;
+  const bool other = report.holder && report.holder != self_;
+  if (other && before.holder == report.holder && before.epoch == report.epoch && report.echo > before.echo)
     other_renewed_at_ = now;
-  heard = {word, now};
-  heard.word.term = std::clamp(word.term, Moment{0}, kLongestTerm);
-  heard.word.echo = std::max(word.echo, Moment{0});
+  heard = {report, now};
+  heard.report.term = std::clamp(report.term, Moment{0}, kLongestTerm);
+  heard.report.echo = std::max(report.echo, Moment{0});
 }
 
 bool OwnerLeases::wants(std::optional<std::uint64_t> epoch, Moment now) {
@@ -48,8 +48,9 @@ bool OwnerLeases::wants(std::optional<std::uint64_t> epoch, Moment now) {
 bool OwnerLeases::holds(const std::string& owner, std::uint64_t epoch, Moment now) const {
   const auto heard = heard_.find(owner);
   if (heard == heard_.end()) return false;
-  const OwnerWord& word = heard->second.word;
-  return word.holder == self_ && word.epoch == epoch && word.echo <= now && now - word.echo < word.term;
+  const LeaseReport& report = heard->second.report;
+  return report.holder == self_ && report.epoch == epoch && report.echo <= now &&
+         now - report.echo < report.term;
 }
 
 bool OwnerLeases::holds_all(std::uint64_t epoch, Moment now) const {
@@ -70,8 +71,8 @@ bool OwnerLeases::hears_all(Moment within, Moment now) const {
 bool OwnerLeases::other_holds_any(Moment now) const {
   return std::ranges::any_of(owners_, [&](const std::string& owner) {
     const auto heard = heard_.find(owner);
-    return heard != heard_.end() && heard->second.word.holder && heard->second.word.holder != self_ &&
-           now - heard->second.at < heard->second.word.term;
+    return heard != heard_.end() && heard->second.report.holder && heard->second.report.holder != self_ &&
+           now - heard->second.at < heard->second.report.term;
   });
 }
 

@@ -11,44 +11,46 @@
 
 namespace roci::exec::standby {
 
-using Moment = std::chrono::microseconds;  ///< counts on a clock that never jumps, of this member alone
+using Moment = std::chrono::microseconds;  ///< counts on this member's own steady clock
 
+/// Names the two executives of a pair.
 enum class Member { first, second };
 
 /// Is what an owner says of its lease (services/owner/commander_leases.hpp).
-struct OwnerWord {
+struct LeaseReport {
   std::string owner;
   std::optional<Member> holder;    ///< nothing: nobody
-  std::uint64_t epoch = 0;         ///< in which it holds the lease
-  std::uint64_t newest_epoch = 0;  ///< in which the pair has commanded there
-  Moment echo{0};                  ///< the newest time that the holder said, on the holder's clock
+  std::uint64_t epoch = 0;         ///< epoch in which the holder holds the lease
+  std::uint64_t newest_epoch = 0;  ///< newest epoch in which the pair has commanded there
+  Moment echo{0};                  ///< newest time that the holder sent, on the holder's clock
   Moment term{0};                  ///< the lease lasts so long from then on at least
-  bool operator==(const OwnerWord&) const = default;
+  bool operator==(const LeaseReport&) const = default;
 };
 
-/// Is what a member says to all owners.
+/// Holds what a member says to all owners.
 struct OwnerRequest {
   Member member = Member::first;
   std::uint64_t epoch = 0;
   bool wanted = false;
-  bool leads = false;  ///< in that epoch; false: it would
+  bool leads = false;  ///< it leads in that epoch; false: it would
   Moment term{0};
   Moment said{0};
   bool operator==(const OwnerRequest&) const = default;
 };
 
-/// Holds all leases or is to command nobody. Two members that have a part each would wait for each other for good, so
-/// one that has had a part for a term gives it back and asks for nothing for some terms: the first member for two,
-/// the second for three. Their times to ask then drift against each other, and in the end one asks alone.
+/// Tracks the owners' leases: a member commands only while it holds all of them. Two members that hold a part each
+/// would wait for each other for ever, so one that has held a part for a term gives it back and asks for nothing for
+/// some terms: the first member for two, the second for three. Their times to ask thus drift apart, and in the end
+/// one asks alone.
 class OwnerLeases {
  public:
   /// `patience` is how long a part is held.
   OwnerLeases(Member self, std::set<std::string> owners, Moment patience);
 
-  /// From now on these owners are to be led.
+  /// Sets the owners whose leases are needed from now on.
   void require(std::set<std::string> owners) { owners_ = std::move(owners); }
 
-  void hear(const OwnerWord& word, Moment now);
+  void hear(const LeaseReport& report, Moment now);
   /// Takes in that this member wants to command in this epoch, or (nothing) does not. Returns whether it is to ask
   /// the owners for their leases now.
   bool wants(std::optional<std::uint64_t> epoch, Moment now);
@@ -71,9 +73,10 @@ class OwnerLeases {
   template <class See>
   void show(See&& see, Moment now) const {
     for (const auto& [owner, heard] : heard_) {
-      const OwnerWord& word = heard.word;
-      see(owner, word.holder.has_value(), word.holder.value_or(Member::first), word.epoch, word.newest_epoch);
-      see(now - heard.at, word.holder == self_ ? now - word.echo : Moment{0}, word.term);
+      const LeaseReport& report = heard.report;
+      see(owner, report.holder.has_value(), report.holder.value_or(Member::first), report.epoch,
+          report.newest_epoch);
+      see(now - heard.at, report.holder == self_ ? now - report.echo : Moment{0}, report.term);
     }
     see(partial_since_ ? now - *partial_since_ : Moment(-1),
         silent_until_ ? *silent_until_ - now : Moment(-1), now - other_renewed_at_);
@@ -81,7 +84,7 @@ class OwnerLeases {
 
  private:
   struct Heard {
-    OwnerWord word;
+    LeaseReport report;
     Moment at{0};
   };
   bool holds(const std::string& owner, std::uint64_t epoch, Moment now) const;

@@ -41,8 +41,7 @@ void PersistedTermFile::write(const PersistedTerm& persisted_term) const {
   const bool good = out && written >= 0 && (durability_ == Durability::process || fsync(written) == 0);
   if (written >= 0) close(written);
   if (!good) throw JournalError("cannot write " + unfinished.string());
-  fs::rename(unfinished, file_);
-  if (durability_ == Durability::power) journal::sync_path(file_.parent_path());
+  journal::put_in_place(unfinished, file_, durability_);
 }
 
 }  // namespace roci::exec::standby

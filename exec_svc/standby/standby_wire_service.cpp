@@ -86,8 +86,8 @@ v1::LeaseRequest to_wire(const OwnerRequest& request, const std::string& command
   return out;
 }
 
-OwnerWord from_wire(const v1::LeaseState& in) {
-  OwnerWord out;
+LeaseReport from_wire(const v1::LeaseState& in) {
+  LeaseReport out;
   out.owner = in.owner();
   if (!in.member().empty()) out.holder = member_of(in.member());
   out.epoch = in.epoch();

@@ -25,7 +25,7 @@ TransferProgress arrival_of(const v1::LeaseMessage& member);
 
 /// These translate what members and owners say of the owners' leases; `commander` is the logical name of the pair.
 v1::LeaseRequest to_wire(const OwnerRequest& request, const std::string& commander);
-OwnerWord from_wire(const v1::LeaseState& state);
+LeaseReport from_wire(const v1::LeaseState& state);
 
 /// These translate a goal that is handed over; nothing for one that cannot be read.
 v1::GoalHandOver to_wire(const goals::GoalRecord& goal, const std::string& executive, Member member);

@@ -7,7 +7,7 @@
 namespace roci::exec::trace {
 namespace {
 
-/// Is a row of neighbouring lines: [begin, end).
+/// Holds a row of neighbouring lines: [begin, end).
 struct Row {
   std::size_t begin = 0;
   std::size_t end = 0;

@@ -11,8 +11,8 @@
 
 namespace roci::exec::trace {
 
-/// Is one differing line: it holds where it stands in Comparison::before and ::after, and nothing on the side
-/// that has no such line.
+/// Holds the place of one differing line in Comparison::before and ::after, and nothing for the side that has
+/// no such line.
 struct Difference {
   std::optional<std::size_t> before;
   std::optional<std::size_t> after;
@@ -21,11 +21,11 @@ struct Difference {
 
 /// Holds what a comparison found, with the lines that it compared.
 struct Comparison {
-  std::vector<Line> before;             ///< Are those of OLD under its new names.
-  std::vector<Line> after;              ///< Are those of NEW without what was added.
-  std::vector<Difference> differences;  ///< Stand in order of mission time, without the accepted ones.
-  std::size_t accepted = 0;             ///< Counts differing lines that the map accepts.
-  Uses uses;                            ///< Counts those of the map's rules.
+  std::vector<Line> before;             ///< lines of OLD under its new names
+  std::vector<Line> after;              ///< lines of NEW without what was added
+  std::vector<Difference> differences;  ///< in order of mission time, without the accepted ones
+  std::size_t accepted = 0;             ///< number of differing lines that the map accepts
+  Uses uses;                            ///< number of uses of each rule of the map
 
   bool equal() const { return differences.empty(); }
 };

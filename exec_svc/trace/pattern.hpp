@@ -9,13 +9,13 @@
 
 namespace roci::exec::trace {
 
-/// Is thrown for an expression or a replacement that is not valid.
+/// Reports an expression or a replacement that is not valid.
 class PatternError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// Is a compiled expression.
+/// Matches and replaces by a compiled expression.
 class Pattern {
  public:
   /// Compiles the expression. Throws PatternError with the reason.

@@ -13,19 +13,19 @@
 
 namespace roci::exec::trace {
 
-/// Is thrown for what cannot be read; what() names the file, the place in it and the remedy.
+/// Reports a trace that cannot be read; what() names the file, the place in it and the remedy.
 class TraceError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// Is one line. Its text begins with the kind of the line, one word: `plan`, `command`, `ack` and
+/// Holds one line. Its text begins with the kind of the line, one word: `plan`, `command`, `ack` and
 /// `observation` are lines of the trace, over which the hash of a run goes; `goal`, `event`, `step` and
 /// `call` are the other decisions of the executive.
 struct Line {
   temporal::Time time{0};
   std::string text;
-  std::size_t number = 0;  ///< Is its place in the trace that it came from, from 1 on.
+  std::size_t number = 0;  ///< its place in the trace that it came from, from 1 on
 
   std::string_view kind() const { return std::string_view(text).substr(0, text.find(' ')); }
   bool operator==(const Line&) const = default;
@@ -35,7 +35,7 @@ struct Line {
 struct RecordedTrace {
   std::string scenario;
   std::optional<std::uint64_t> seed;
-  bool decisions = false;  ///< The goals, events, steps and calls stand in it, too.
+  bool decisions = false;  ///< goals, events, steps and calls stand in it, too
   std::vector<Line> lines;
 
   bool operator==(const RecordedTrace&) const = default;

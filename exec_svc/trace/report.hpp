@@ -10,9 +10,9 @@ namespace roci::exec::trace {
 
 /// Says how much of the differences is shown.
 struct ReportOptions {
-  std::size_t shown = 1;    ///< Counts the differences that are shown, the first ones.
-  std::size_t context = 3;  ///< Counts the lines of each side before a difference.
-  std::size_t width = 200;  ///< Bounds a shown line; of a longer one the part around the difference is shown.
+  std::size_t shown = 1;    ///< number of differences that are shown, the first ones
+  std::size_t context = 3;  ///< number of lines of each side before a difference
+  std::size_t width = 200;  ///< bytes of a shown line; a longer one is cut to the part around the difference
 };
 
 /// Returns one line on the whole, such as "different: 3 lines of 812 (2 more accepted)".

@@ -14,20 +14,20 @@
 
 namespace roci::exec::trace {
 
-/// This is the newest version of the file that this code reads.
+/// Numbers the newest version of the file that this code reads.
 inline constexpr int kMapFormat = 1;
 
 /// Says where a rule stands ("file:line:column"), by which reports and counts name it.
 using Place = std::string;
 
-/// Is one word for another one.
+/// Holds the new name of a word.
 struct NewName {
   std::string to;
   Place place;
 };
 using NewNames = std::map<std::string, NewName, std::less<>>;
 
-/// Is a rewrite of OLD lines; without a kind, it is one of lines of any kind.
+/// Rewrites OLD lines of one kind, or of any kind if none is named.
 struct Rewrite {
   std::optional<std::string> kind;
   Pattern pattern;
@@ -52,9 +52,9 @@ struct FreeOrder {
   Place place;
 };
 
-/// Is a difference that remains. With `before` alone it is a line that only OLD has, with `after` alone one
-/// that only NEW has, with both a line that stands for the other one at the same mission time. Patterns see
-/// OLD lines with their new names.
+/// Describes a difference that remains. With `before` alone it is a line that only OLD has, with `after`
+/// alone one that only NEW has, with both a line that stands for the other one at the same mission time.
+/// Patterns see OLD lines with their new names.
 struct Accepted {
   Pattern scenario;
   std::optional<Pattern> before;
@@ -65,9 +65,9 @@ struct Accepted {
 
 /// Holds the rules of one map file, in the order of the file.
 struct TraceMap {
-  NewNames names;  ///< Rename words that are neither the kind of a line nor the name of a field.
-  NewNames kinds;  ///< Rename the first words of lines.
-  NewNames keys;   ///< Rename words before an equals sign.
+  NewNames names;  ///< rename words that are neither the kind of a line nor the name of a field
+  NewNames kinds;  ///< rename the first words of lines
+  NewNames keys;   ///< rename words before an equals sign
   std::vector<Rewrite> rewrites;
   std::vector<Addition> additions;
   std::vector<FreeOrder> free_orders;

@@ -9,7 +9,7 @@
 
 namespace roci::exec::trace {
 
-/// This is the newest version of the text that this code reads; it writes this one.
+/// Numbers the newest version of the text that this code reads, and the one that it writes.
 inline constexpr int kTextFormat = 1;
 
 /// Writes the first line and then each line as `MICROSECONDS TEXT`. A line feed in a text is written as `\n`,

@@ -1,4 +1,4 @@
-// A plan that has ended, as it was executed.
+// This file prints a plan that has ended, as it was executed.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

@@ -1,4 +1,4 @@
-// The levels of a plan: activities, each with what it is made of behind it.
+// This file arranges the levels of a plan: activities, each followed by its parts.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 
 namespace roci::console::cli {
 
-/// Is an activity at its depth in the hierarchy; 0 is the top.
+/// Holds an activity at its depth in the hierarchy; 0 is the top.
 template <class Activity>
 struct InLevels {
   const Activity* activity = nullptr;

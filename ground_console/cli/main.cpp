@@ -117,9 +117,11 @@ void add_goal_verbs(CLI::App& app, Line& line) {
   add->add_option("--utility", line.goal.utility,
                   "Among optional goals the lowest goes first; several by rank, the highest first: 2,0.5")
       ->delimiter(',');
-  add->add_option("--priority", line.goal.priority, "For people and later engines; higher is more");
-  add->add_option("--opens", line.goal.opens_s, "Earliest mission time in seconds");
-  add->add_option("--closes", line.goal.closes_s, "Latest mission time in seconds");
+  add->add_option("--priority", line.goal.priority,
+                  "Of goals worth the same, the lowest leaves first where not all fit");
+  add->add_option("--opens", line.goal.opens_s,
+                  "Earliest mission time in seconds, for kinds with a window (roci goal kinds)");
+  add->add_option("--closes", line.goal.closes_s, "Latest mission time in seconds, likewise");
   add->add_option("--issuer", line.goal.issuer, "Who asks")->capture_default_str();
   add->add_flag("--wait", line.goal.waits,
                 "Wait for the goal's end: exit code 0 achieved, 4 dropped, failed or recalled, 5 the mission "

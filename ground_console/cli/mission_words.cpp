@@ -15,10 +15,12 @@ namespace {
 
 using mission::Entry;
 
-GoalKindWords read_kind(const std::string& name, const Entry& entry) {
+// Where there is no PDDL domain, a goal's window is the engine's business.
+GoalKindWords read_kind(const std::string& name, const Entry& entry, bool has_domain) {
   GoalKindWords out;
   out.name = name;
   out.help = entry.text_or("help", "");
+  out.has_window = !has_domain || entry.find("window").has_value();
   if (const auto arguments = entry.find("arguments"))
     for (const auto& [argument, kind] : arguments->fields())
       out.arguments.emplace_back(argument, kind.text());
@@ -58,7 +60,8 @@ MissionWords read_mission_words(const std::filesystem::path& folder_or_file) {
   MissionWords out;
   out.name = root.text_or("name", "");
   if (const auto kinds = root.find("goal_kinds"))
-    for (const auto& [name, entry] : kinds->fields()) out.goal_kinds.push_back(read_kind(name, entry));
+    for (const auto& [name, entry] : kinds->fields())
+      out.goal_kinds.push_back(read_kind(name, entry, root.find("domain").has_value()));
   if (const auto units = root.find("units"))
     for (const auto& [timeline, unit] : units->fields()) out.units[timeline] = unit.text();
   return out;
@@ -81,6 +84,7 @@ std::string goal_kinds_text(const MissionWords& words) {
     for (const auto& [argument, of_kind] : kind.arguments)
       out +=
           "  " + printable(argument + "  " + (of_kind == "goal" ? "the id of another goal" : of_kind)) + "\n";
+    if (kind.has_window) out += "  --opens, --closes  its window, in mission time\n";
     out += "  e.g. " + printable(example_of(kind)) + "\n";
   }
   return out;
@@ -94,6 +98,7 @@ nlohmann::json goal_kinds_json(const MissionWords& words) {
     out.push_back({{"kind", kind.name},
                    {"help", kind.help},
                    {"arguments", std::move(arguments)},
+                   {"window", kind.has_window},
                    {"example", example_of(kind)}});
   }
   return out;

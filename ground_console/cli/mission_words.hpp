@@ -1,4 +1,5 @@
-// What a mission file says to people: its goal kinds with help and example, and the units of its timelines.
+// Mission words are what a mission file says to people: its goal kinds with help and example, and the units
+// of its timelines.
 #pragma once
 
 #include <filesystem>
@@ -10,19 +11,22 @@
 
 namespace roci::console::cli {
 
+/// Describes a kind of goals to people, with an example.
 struct GoalKindWords {
   std::string name;
   std::string help;
   std::vector<std::pair<std::string, std::string>> arguments;  ///< name and kind: number, text, goal
   std::map<std::string, std::string> example;  ///< a value for each argument, as far as the mission says
+  bool has_window = false;                     ///< false: a goal with --opens or --closes is refused
 };
 
+/// Holds what a mission file says to people.
 struct MissionWords {
   std::string name;
   std::vector<GoalKindWords> goal_kinds;
   std::map<std::string, std::string> units;  ///< by timeline, "rover.battery" → "J"; a name may end in *
 
-  /// Empty for a timeline that has none.
+  /// Returns the unit of a timeline, or an empty text if it has none.
   std::string unit_of(const std::string& timeline) const;
 };
 

@@ -1,4 +1,4 @@
-// `roci network …`: the planner's task network and its parameters, from the ground (R83, R118).
+// This is `roci network …`: the planner's task network and its parameters, from the ground (R83, R118).
 #pragma once
 
 #include <string>
@@ -7,6 +7,7 @@
 
 namespace roci::console::cli {
 
+/// Holds the arguments of `roci network`.
 struct NetworkArguments {
   std::string file;       ///< of `upload`: YAML or binary
   std::string parameter;  ///< of `set`

@@ -1,4 +1,4 @@
-// `roci order …` and `roci decisions`: orders to the executive, and the decisions that are open.
+// These are `roci order …` and `roci decisions`: orders to the executive, and the decisions that are open.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -9,6 +9,7 @@
 
 namespace roci::console::cli {
 
+/// Holds the arguments of `roci order`.
 struct OrderArguments {
   v1::OrderKind kind = v1::ORDER_HOLD;
   std::string target;

@@ -1,4 +1,4 @@
-// The running plan as a table: what, with which arguments, when, and for which goals.
+// This file shows the running plan as a table: what, with which arguments, when, and for which goals.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,5 @@
-// The values of external functions that a plan stands on: who said them, from which map or model, and how old they are.
+// This file shows the values of external functions on which a plan rests: who gave them, from which map or model, and
+// how old they are.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

@@ -1,4 +1,4 @@
-// The verb `roci reach`: whether a robot gets to a place, how long it takes, and how much energy.
+// This is the verb `roci reach`: whether a robot gets to a place, how long it takes, and how much energy.
 #pragma once
 
 #include <optional>
@@ -8,6 +8,7 @@
 
 namespace roci::console::cli {
 
+/// Holds the arguments of `roci reach`.
 struct ReachArguments {
   double x_m = 0;
   double y_m = 0;

@@ -1,4 +1,4 @@
-// What roci prints: as text for people, as JSON for scripts.
+// This is what roci prints: text for people, JSON for scripts.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

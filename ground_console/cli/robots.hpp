@@ -1,5 +1,5 @@
-// What is known of each robot, side by side: where it is, what its subsystems do, what its map has; and what decisions
-// are open and what is being repaired.
+// This file shows what is known of each robot, side by side: where it is, what its subsystems do, what its map has,
+// and what decisions are open and what is being repaired.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -13,6 +13,7 @@
 
 namespace roci::console::cli {
 
+/// Holds what is known of one robot.
 struct Robot {
   std::string name;
   std::optional<lib::Place> place{};

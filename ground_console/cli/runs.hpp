@@ -1,4 +1,4 @@
-// The verb `roci runs`: the history of this machine's runs, and its pruning.
+// This is the verb `roci runs`: the history of this machine's runs, and its pruning.
 #pragma once
 
 #include <cstddef>

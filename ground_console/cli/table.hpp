@@ -1,4 +1,4 @@
-// Text in columns.
+// This file sets text in columns.
 #pragma once
 
 #include <cstddef>

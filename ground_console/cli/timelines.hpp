@@ -1,4 +1,5 @@
-// The timelines of a mission over time: what the plan foresaw, what has come about, what is still to come.
+// This file shows the timelines of a mission over time: what the plan foresaw, what has come about, what is
+// still to come.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

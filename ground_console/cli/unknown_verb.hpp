@@ -1,4 +1,4 @@
-// A word that is no verb of roci, and the verb that may have been meant.
+// This file answers a word that is no verb of roci with the verb that may have been meant.
 #pragma once
 
 #include <string>

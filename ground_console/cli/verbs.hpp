@@ -1,4 +1,4 @@
-// The verbs of roci. Each returns an exit code (docs/exit-codes.md, "Ground tool").
+// These are the verbs of roci. Each returns an exit code (docs/exit-codes.md, "Ground tool").
 #pragma once
 
 #include <cstddef>
@@ -12,6 +12,7 @@
 
 namespace roci::console::cli {
 
+/// Names the exit codes of roci.
 enum ExitCode {
   kDone = 0,
   kRefused = 1,
@@ -23,6 +24,7 @@ enum ExitCode {
   kStillOpen = 5,
 };
 
+/// Holds the arguments of `roci goal add`.
 struct GoalArguments {
   std::string issuer = "ground";
   std::string id;

@@ -11,7 +11,7 @@
 #include "services/clock/wall.hpp"
 #include "services/process/run_record.hpp"
 #include "services/rpc.hpp"
-#include "services/topics.hpp"
+#include "services/topics/topics.hpp"
 #include "services/transport/plug_ins.hpp"
 
 namespace roci::console::lib {
@@ -151,7 +151,7 @@ Client::Client(const services::process::Connection& connection)
 }
 
 template <class T>
-void Client::follow(const services::Topic<T>& topic) {
+void Client::follow(const services::topics::Topic<T>& topic) {
   services::subscribe(node_, topic, [this](const T& value) { view_.take(value); });
 }
 

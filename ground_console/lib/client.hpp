@@ -1,4 +1,4 @@
-// The ground's door to a running mission: an observer that fills a MissionView and sends goals.
+// The client is the ground's door to a running mission: an observer that fills a MissionView and sends goals.
 #pragma once
 
 #include <chrono>
@@ -20,6 +20,7 @@
 
 namespace roci::console::lib {
 
+/// Reports that there is no run to join.
 class NoRun : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -43,6 +44,7 @@ bool wait_for_launcher(std::int64_t pid);
 services::process::Connection wait_for_run(const services::process::ConnectionFlags& flags,
                                            const std::function<void()>& tell_waiting);
 
+/// Observes a running mission, and sends goals and orders to it.
 class Client {
  public:
   explicit Client(const services::process::Connection& connection);
@@ -96,7 +98,7 @@ class Client {
 
  private:
   template <class T>
-  void follow(const services::Topic<T>& topic);
+  void follow(const services::topics::Topic<T>& topic);
 
   MissionView view_;
   std::int64_t launcher_ = 0;  // 0: none is watched

@@ -241,7 +241,12 @@ std::string MissionView::executive() const {
 
 const v1::MissionStatus* MissionView::mission() const { return found_or_null(missions_, executive()); }
 
+// The world tells of the end of a simulated run, also where goals are open and the executive has no outcome.
 bool MissionView::ended() const {
+  if (std::ranges::any_of(events_, [](const v1::Event& event) {
+        return event.code() == "scenario.over" || event.code() == "scenario.time-up";
+      }))
+    return true;
   const auto has_outcome = [](const v1::MissionStatus& mission) { return !mission.outcome().empty(); };
   if (!chosen_.empty()) return mission() != nullptr && has_outcome(*mission());
   return !missions_.empty() &&

@@ -1,4 +1,5 @@
-// What the ground knows of a mission: the newest of everything that came down. Plain values, no DDS.
+// The mission view is what the ground knows of a mission: the newest of everything that came down. It
+// consists of plain values, without DDS.
 #pragma once
 
 #include <cstdint>
@@ -23,12 +24,14 @@
 
 namespace roci::console::lib {
 
+/// Holds a position in the map frame, in metres.
 struct Place {
   double x_m = 0;
   double y_m = 0;
   bool operator==(const Place&) const = default;
 };
 
+/// Keeps the newest of everything that came down; late or repeated samples never replace newer ones.
 class MissionView {
  public:
   /// Late or repeated samples never replace newer ones.
@@ -65,7 +68,8 @@ class MissionView {
 
   const v1::MissionStatus* mission() const;  ///< null before the first
   const std::map<std::string, v1::MissionStatus>& missions() const { return missions_; }  ///< by executive
-  /// The mission of the chosen executive, or of all where none was chosen, has an outcome.
+  /// The mission of the chosen executive, or of all where none was chosen, has an outcome, or the world has told of
+  /// the end of a simulated run.
   bool ended() const;
   /// Decisions that plans have asked for, by id.
   const std::map<std::string, v1::Decision>& decisions() const { return decisions_; }

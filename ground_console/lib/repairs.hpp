@@ -1,4 +1,5 @@
-// Which owners of commands repair what by themselves (R146), as their words on commands tell. Plain values, no DDS.
+// Repairs are what owners of commands mend by themselves (R146), as their words on commands tell. They are plain
+// values, without DDS.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +11,7 @@
 
 namespace roci::console::lib {
 
-/// Is what an owner does to end a command well although something went wrong.
+/// Describes what an owner does to end a command well although something went wrong.
 struct Repair {
   enum class State { under_way, mended, failed };
 
@@ -34,6 +35,7 @@ const char* name_of(Repair::State state);  ///< "under way", "mended", "failed"
 /// Negative: no bound is known.
 double share_used(const Repair& repair, std::int64_t now_us);
 
+/// Tells which commands their owners repair by themselves, from the words on them.
 class Repairs {
  public:
   using Key = std::tuple<std::string, std::uint64_t, std::string, std::uint32_t>;  ///< of the command

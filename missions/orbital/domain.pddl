@@ -39,7 +39,9 @@
     (wanted ?m - module ?s - slot)
     (allowed ?m - module ?s - slot)  ; the window in which it is wanted there, if it has one, is open
     (to-replace ?m - module)
+    (replacing ?m - module)          ; the window in which it is to be replaced, if it has one, is open
     (to-configure ?c - mode)
+    (configuring ?c - mode)          ; likewise
 
     ; What was so when the plan was asked for, and says what may be of use to it.
     (arm-first ?s - slot)
@@ -161,7 +163,13 @@
       (at start (tool-ready))
       (at start (localized ?s))
       (over all (arm-at ?s))
-      (over all (or (not (wanted ?m ?s)) (fits ?m ?s) (allowed ?m ?s)))
+      (over all (or (not (wanted ?m ?s)) (allowed ?m ?s)))
+      (over all
+        (forall (?d - module ?r - role)
+          (or (not (to-replace ?d)) (not (seat ?d ?s)) (not (serves ?d ?r)) (not (serves ?m ?r)) (replacing ?d))))
+      (over all
+        (forall (?c - mode ?r - role)
+          (or (not (to-configure ?c)) (not (needs ?c ?r ?s)) (not (serves ?m ?r)) (configuring ?c))))
       (at start (>= (battery) (+ (reserve) 6000))))
     :effect (and
       (at start (not (tool-ready)))

@@ -1,4 +1,4 @@
-// An engine that answers calls: one request, one answer.
+// An answering engine answers calls: one request, one answer.
 #pragma once
 
 #include "planner_svc/engine/answer.hpp"
@@ -7,6 +7,7 @@
 
 namespace roci::planner::engine {
 
+/// Serves as the base of engines that answer calls.
 class AnsweringEngine {
  public:
   virtual ~AnsweringEngine() = default;

@@ -5,6 +5,8 @@
 #include <new>
 #include <utility>
 
+#include "planner_svc/engine/recorded_functions.hpp"
+
 namespace roci::planner::engine {
 
 using temporal::Verdict;
@@ -12,33 +14,8 @@ using temporal::Verdict;
 namespace {
 
 constexpr std::size_t kMostFaults = 10;  // that are told
-
-// Passes calls on and keeps what the owners answered, so that the checker hears it from them.
-class RecordedFunctions final : public FunctionSource {
- public:
-  explicit RecordedFunctions(FunctionSource& source) : source_(source) {}
-
-  std::vector<FunctionValue> evaluate(std::span<const FunctionCall> calls,
-                                      const std::function<bool()>& cancelled) override {
-    std::vector<FunctionValue> values = source_.evaluate(calls, cancelled);
-    ++requests_;
-    if (values.size() == calls.size())
-      for (std::size_t i = 0; i < calls.size(); ++i) uses_.push_back({calls[i], values[i]});
-    return values;
-  }
-
-  std::span<const FunctionUse> uses() const { return uses_; }
-  std::uint64_t requests() const { return requests_; }
-  std::uint64_t exact() const {
-    return static_cast<std::uint64_t>(
-        std::ranges::count_if(uses_, [](const FunctionUse& use) { return use.answer.is_exact(); }));
-  }
-
- private:
-  FunctionSource& source_;
-  std::uint64_t requests_ = 0;
-  std::vector<FunctionUse> uses_;
-};
+// An owner that searches twice as hard each time comes to sixteen times its first effort (arm_svc).
+constexpr std::size_t kMostAsks = 5;
 
 std::string unknown_engine(const Table& table, const std::string& name) {
   const std::string all = names_of_answering(table);
@@ -47,11 +24,43 @@ std::string unknown_engine(const Table& table, const std::string& name) {
   return "unknown engine '" + name + "'; this planner has: " + all;
 }
 
+bool is_over(const Limits& limits) {
+  return (limits.cancelled && limits.cancelled()) || (limits.out_of_time && limits.out_of_time());
+}
+
+// Says how often owners were asked where that is why a goal has no plan.
+void tell_asks(Answer& answer, std::size_t asks) {
+  const std::string asked = "; asked " + std::to_string(asks) + " times";
+  answer.reason += asked;
+  for (BlockingGoal& goal : answer.blocking)
+    if (!goal.proved) goal.reason += asked;
+}
+
+// Before a call ends without a plan for want of values that owners did not find, they are asked for these again.
+Answer answer_asking_again(const TableEntry& entry, const Request& request, const Limits& limits,
+                           RecordedFunctions& functions) {
+  const auto engine = std::get<MakeAnswering>(entry.make)();
+  Answer answer = engine->answer(request, limits, functions);
+  std::size_t asks = 1;
+  while (answer.lacks_values && asks < kMostAsks && !is_over(limits)) {
+    ++asks;
+    if (!functions.ask_again(limits.cancelled)) continue;
+    const Statistics before = answer.statistics;
+    Request rest = request;
+    if (rest.work != 0) rest.work -= std::min(rest.work - 1, before.evaluated);
+    answer = engine->answer(rest, limits, functions);
+    answer.statistics.expanded += before.expanded;
+    answer.statistics.evaluated += before.evaluated;
+  }
+  if (answer.lacks_values && asks > 1) tell_asks(answer, asks);
+  return answer;
+}
+
 Answer answer_by(const TableEntry& entry, const Request& request, const Limits& limits,
                  FunctionSource& functions) {
   RecordedFunctions recorded(functions);
-  Answer answer = std::get<MakeAnswering>(entry.make)()->answer(request, limits, recorded);
-  answer.statistics.function_tuples = recorded.uses().size();
+  Answer answer = answer_asking_again(entry, request, limits, recorded);
+  answer.statistics.function_tuples = recorded.tuples();
   answer.statistics.function_requests = recorded.requests();
   answer.statistics.exact_values = recorded.exact();
   if (!answer.plan) return answer;

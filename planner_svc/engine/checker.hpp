@@ -1,4 +1,4 @@
-// The independent check that every plan of an engine passes before it leaves the planner.
+// A checker is the independent check that every plan of an engine passes before it leaves the planner.
 #pragma once
 
 #include <filesystem>
@@ -13,26 +13,26 @@
 
 namespace roci::planner::engine {
 
-/// A plan with all that it must fit.
+/// Refers to a plan and all that it must fit.
 struct CheckedPlan {
   const Request& request;
-  /// As the owners gave them in this call; a plan may stand on exact ones alone.
+  /// Holds the values as the owners gave them in this call; a plan may rest on exact ones alone.
   std::span<const FunctionUse> values;
   const temporal::FlexiblePlan& plan;
   const temporal::FlexiblePlan* before = nullptr;  ///< the version that it changes; null: there is none
-  /// How far the executed version has come; null: none is executed.
+  /// Says how far the executed version has come; null: none is executed.
   const temporal::Progress* progress = nullptr;
   std::filesystem::path model_file{};  ///< of the request's model, for what it includes
 };
 
-/// Shares no more with its engine than the reader of the model, so that a fault of the engine cannot hide
-/// itself.
+/// Checks plans, and shares no more with its engine than the reader of the model, so that a fault of the
+/// engine cannot hide itself.
 class Checker {
  public:
   virtual ~Checker() = default;
 
-  /// Everything that is wrong with the plan as an answer to the request, one plain sentence each; empty: it
-  /// may be sent. It may throw: then the plan is not sent either.
+  /// Returns everything that is wrong with the plan as an answer to the request, one plain sentence each;
+  /// with none it may be sent. If it throws, the plan is not sent either.
   virtual std::vector<std::string> faults(const CheckedPlan& checked) const = 0;
 };
 

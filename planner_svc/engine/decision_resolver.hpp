@@ -1,4 +1,4 @@
-// What an engine answers at run time: decisions that its plan has left open (R131).
+// Decision resolvers answer at run time the decisions that an engine's plan has left open (R131).
 #pragma once
 
 #include <optional>
@@ -9,7 +9,7 @@
 
 namespace roci::planner::engine {
 
-/// A decision that the executive of a running plan asks for.
+/// Refers to a decision that the executive of a running plan asks for.
 struct OpenDecision {
   const Request& request;  ///< engine, robot, model; `origin` is now, `state` what is observed now; no goals
   const temporal::FlexiblePlan& plan;  ///< that is executed
@@ -17,20 +17,21 @@ struct OpenDecision {
   temporal::Time answer_before = temporal::no_bound;  ///< mission time
 };
 
-/// Is the answer: one of the choices, or the value for the arguments that the decision binds.
+/// Holds the answer: one of the choices, or the value for the arguments that the decision binds.
 struct Resolution {
   std::string choice{};
   std::string value{};
   friend bool operator==(const Resolution&, const Resolution&) = default;
 };
 
+/// Serves as the base of resolvers.
 class DecisionResolver {
  public:
   virtual ~DecisionResolver() = default;
 
-  /// Decides on what is known now. Nothing: the information is not there yet; asked again when something else is
-  /// observed, as long as the decision is open. What it returns is a function of what is given. It may throw: told,
-  /// and nothing is answered.
+  /// Decides on what is known now; the result depends on `open` alone. It returns nothing if the information is not
+  /// there yet, and is then asked again when something else is observed, as long as the decision is open. What it
+  /// throws is reported, and nothing is answered.
   virtual std::optional<Resolution> resolve(const OpenDecision& open) const = 0;
 };
 

@@ -1,4 +1,4 @@
-// What is said of the values that owners of external functions gave, or gave none, and what of them a plan records.
+// This file puts in words what owners of external functions gave, and says what of it a plan records.
 #pragma once
 
 #include <span>
@@ -9,24 +9,25 @@
 
 namespace roci::planner::engine {
 
-/// Whether the owner gave a value, or says that there is none or that it found none.
+/// Returns whether the owner gave a value, or says that there is none or that it found none.
 bool is_usable(const FunctionValue& answer);
 
-/// Why nothing can be planned with this answer: "external function (f a b) of module m: late, REASON; asked OWNER,
-/// model 3, at 12.5 s". Empty where it is usable.
+/// Returns why nothing can be planned with this answer: "external function (f a b) of module m: late, REASON;
+/// asked OWNER, model 3, at 12.5 s"; empty where it is usable.
 std::string fault_of(const FunctionUse& use);
-/// What to do about it; empty where there is no fault.
+/// Returns what to do about it; empty where there is no fault.
 std::string remedy_of(const FunctionUse& use);
 
-/// That no plan exists is not proved where owners found no value with the effort that they spent: "not known: OWNER
-/// found no way for (f a b) and 2 more with the effort spent; ask again or give it more".
-/// Empty where they found or disproved all.
+/// Returns why it is not proved that no plan exists, where owners found no value with the effort that they spent:
+/// "not known: OWNER found no way for (f a b) and 2 more with the effort spent; ask again or give it more"; empty
+/// where they found or disproved all.
 std::string doubt_of(std::span<const FunctionUse> uses);
 
-/// What owners proved: "OWNER says that there is no (f a b), REASON, and 2 more". Empty where they proved nothing.
+/// Returns what owners proved: "OWNER says that there is no (f a b), REASON, and 2 more"; empty where they proved
+/// nothing.
 std::string denial_of(std::span<const FunctionUse> uses);
 
-/// The value as a plan that stands on it records it. The owner gave one.
+/// Returns the value, which the owner must have given, as a plan that rests on it records it.
 temporal::FunctionValueUse recorded(const FunctionUse& use);
 
 }  // namespace roci::planner::engine

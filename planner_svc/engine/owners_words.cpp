@@ -1,6 +1,8 @@
 #include "planner_svc/engine/owners_words.hpp"
 
 #include <algorithm>
+#include <map>
+#include <optional>
 
 namespace roci::planner::engine {
 
@@ -21,45 +23,52 @@ std::string described(const std::string& name, const std::vector<Object>& object
 
 // What speaks against the object as the goal of the way.
 struct Against {
-  const FunctionUse* use = nullptr;  // null: some tuple with it has a value, or nobody was asked
-  bool proved = true;                // of every tuple with it its owner knows that there is no value
+  const FunctionUse* use =
+      nullptr;         // null: of every function some tuple with it has a value, or nobody was asked
+  bool proved = true;  // of every tuple with it its owner knows that there is no value
 };
 
+// One function may have no value where another has: an arm that cannot carry a load there, and can go there without.
 Against against(const std::string& object, std::span<const FunctionUse> uses) {
-  Against out;
+  std::map<std::string, std::optional<Against>> by_function;  // nothing: some tuple has a value
   for (const FunctionUse& use : uses) {
     const auto& arguments = use.call.arguments;
     const bool of_others =
         std::ranges::any_of(arguments, [&](const std::string& one) { return one != object; });
     if (arguments.empty() || arguments.back() != object || !of_others) continue;
-    if (use.answer.outcome == FunctionOutcome::value) return {};
+    std::optional<Against>& out = by_function.try_emplace(use.call.function, Against{}).first->second;
+    if (use.answer.outcome == FunctionOutcome::value) out.reset();
+    if (!out) continue;
     const bool proved = use.answer.outcome == FunctionOutcome::unreachable;
-    if (out.use == nullptr || (out.proved && !proved)) out.use = &use;
-    out.proved = out.proved && proved;
+    if (out->use == nullptr || (out->proved && !proved)) out->use = &use;
+    out->proved = out->proved && proved;
   }
-  return out;
+  for (const auto& [function, out] : by_function)
+    if (out) return *out;
+  return {};
 }
 
 }  // namespace
 
-std::string words_against(const std::set<std::string>& named, const std::vector<Object>& objects,
+OwnersWords words_against(const std::set<std::string>& named, const std::vector<Object>& objects,
                           std::span<const FunctionUse> uses) {
   for (const std::string& object : named) {
     const auto [use, proved] = against(object, uses);
     if (use == nullptr) continue;
     const Provenance& said = *use->answer.provenance;
     if (!proved)
-      return "no way to " + described(object, objects) + " is known: " + said.owner +
-             " found none with the effort spent (" + use->call.function + ", model " + said.model_version +
-             "), which proves nothing; ask again, or let it search longer";
+      return {"no way to " + described(object, objects) + " is known: " + said.owner +
+                  " found none with the effort spent (" + use->call.function + ", model " +
+                  said.model_version + "), which proves nothing; ask again, or let it search longer",
+              false};
     const std::string about = object + ": ";
     if (use->answer.reason.starts_with(about))
-      return described(object, objects) + ": " + use->answer.reason.substr(about.size()) + " (says " +
-             said.owner + ", model " + said.model_version + ")";
-    return described(object, objects) + " is unreachable (says " + said.owner + ", " + use->call.function +
-           ", model " + said.model_version + ")";
+      return {described(object, objects) + ": " + use->answer.reason.substr(about.size()) + " (says " +
+              said.owner + ", model " + said.model_version + ")"};
+    return {described(object, objects) + " is unreachable (says " + said.owner + ", " + use->call.function +
+            ", model " + said.model_version + ")"};
   }
-  return "";
+  return {};
 }
 
 }  // namespace roci::planner::engine

@@ -1,4 +1,4 @@
-// The versions that an engine sent and that may still be changed.
+// The plan history has the versions that an engine sent and that may still be changed.
 #pragma once
 
 #include <cstddef>
@@ -14,18 +14,19 @@ namespace roci::planner::engine {
 /// plan that comes of it.
 class PlanHistory {
  public:
-  /// The plan that the delta makes of the version that it changes: filled in `next`. Returns what is wrong,
-  /// empty if nothing: a version that is not known, or not above all before, or does not fit.
+  /// Fills `next` with the plan that the delta makes of the version that it changes. Returns what is wrong,
+  /// empty if nothing: a version that is not known, is not above all before, or does not fit.
   std::string apply(const temporal::PlanDelta& delta, temporal::FlexiblePlan& next) const;
-  /// Null: the version is not known.
+  /// Returns the version, or null if it is not known.
   const temporal::FlexiblePlan* version(std::uint32_t number) const;
-  /// The plan was sent, or is executed. Of more than kVersions the second oldest goes: the oldest may be executed.
+  /// Keeps a plan that was sent, or is executed. Of more than kVersions the second oldest goes, since the oldest
+  /// may be executed.
   void keep(temporal::FlexiblePlan plan);
-  /// This version is executed: those before it are changed no more.
+  /// Forgets the versions before this one, which is executed.
   void forget_before(std::uint32_t version);
   std::uint32_t newest() const { return newest_; }
 
-  /// So many versions are kept, whoever sent them: an executive that is busy takes none for some seconds.
+  /// Bounds the versions that are kept, whoever sent them: a busy executive takes none for some seconds.
   static constexpr std::size_t kVersions = 64;
 
  private:

@@ -1,4 +1,4 @@
-// The engines of a planner by name: how each is made, and its checker.
+// The table has the engines of a planner by name: how each is made, and its checker.
 #pragma once
 
 #include <functional>
@@ -16,7 +16,8 @@
 namespace roci::planner::engine {
 
 using MakeAnswering = std::function<std::unique_ptr<AnsweringEngine>()>;
-/// Throws std::exception with file, line and remedy for a model that the engine does not take.
+/// Makes a stepped engine. Throws std::exception with file, line and remedy for a model that the engine does
+/// not take.
 using MakeStepped = std::function<std::unique_ptr<SteppedEngine>(const Setup&)>;
 
 /// Says where a model asks a service for numbers.
@@ -26,29 +27,31 @@ struct AskedFunction {
   std::string place;  ///< "file:line:column"
 };
 
+/// Says how one engine is made, how its plans are checked, and what a mission may choose of it.
 struct TableEntry {
   std::variant<MakeAnswering, MakeStepped> make;
   std::function<std::unique_ptr<Checker>()> make_checker;
   /// Serves an engine whose plans leave decisions to itself; empty: they leave none. It may throw as MakeStepped does.
   std::function<std::unique_ptr<DecisionResolver>(const Setup&)> make_resolver{};
-  /// The ways to search that a mission may name for it (Request::resolvers, Setup::resolvers); none: it has one alone.
+  /// Lists the ways to search that a mission may name for it (Request::resolvers, Setup::resolvers); none: it has one
+  /// alone.
   std::vector<std::string> resolvers{};
-  /// Throws std::invalid_argument, with the remedy, for some of these that do not go together; empty: all do.
+  /// Throws std::invalid_argument, with the remedy, for resolvers that do not go together; empty: all do.
   std::function<void(const std::vector<std::string>&)> check_resolvers{};
-  /// Of an engine with models of its own: the functions that one asks for, in its order. The model is the text that a
-  /// mission has of its file, the name that of the file where the text names none. One that cannot be read asks for
-  /// none.
+  /// Returns, for an engine with models of its own, the functions that a model asks for, in its order. The model is
+  /// the text that a mission has of its file, `name` the file's name where the text names none. A model that cannot
+  /// be read asks for none.
   std::function<std::vector<AskedFunction>(const std::string& model, const std::string& name)>
       asked_functions{};
 };
 
-/// Goes by name, as mission.yaml and PlanRequest give it.
+/// Maps names, as mission.yaml and PlanRequest give them, to engines.
 using Table = std::map<std::string, TableEntry>;
 
-/// "a, b, c": the engines that answer calls; "none".
+/// Returns the names of the engines that answer calls, as "a, b, c", or "none".
 std::string names_of_answering(const Table& table);
 
-/// Null if there is no engine of that name that plans all the time.
+/// Returns how the engine of that name is made, or null if there is none that plans all the time.
 const MakeStepped* stepped_named(const Table& table, const std::string& name);
 
 }  // namespace roci::planner::engine

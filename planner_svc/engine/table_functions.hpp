@@ -1,4 +1,4 @@
-// Values of external functions from a table instead of a service.
+// Table functions take values of external functions from a table instead of a service.
 #pragma once
 
 #include <span>
@@ -10,8 +10,8 @@
 
 namespace roci::planner::engine {
 
-/// Gives exact values where no lower bound stands in the tables; tuples that are not in them are unavailable.
-/// `owner` is given as who says so.
+/// Gives exact values where the tables have no lower bound; tuples that are not in them are unavailable.
+/// `owner` is named as the source.
 class TableFunctions final : public FunctionSource {
  public:
   TableFunctions(pddl::FunctionTables tables, std::string owner)
@@ -27,8 +27,8 @@ class TableFunctions final : public FunctionSource {
   SharedProvenance owner_;
 };
 
-/// Returns what owners said as such a table, by which a call can be made again without them. What has no value
-/// otherwise stands in it as unreachable.
+/// Returns what owners said as such tables, by which a call can be made again without them. A tuple without a
+/// value for any other reason is entered as unreachable.
 pddl::FunctionTables tables_of(std::span<const FunctionUse> uses);
 
 }  // namespace roci::planner::engine

@@ -1,5 +1,5 @@
-// What engine and executive know of each other's versions, with messages between them that come late,
-// twice or not at all (R66, R81).
+// The version exchange is what engine and executive know of each other's versions, with messages between them
+// that come late, twice or not at all (R66, R81).
 #pragma once
 
 #include <cstdint>
@@ -17,28 +17,29 @@ namespace roci::planner::engine {
 /// already is given to it whole.
 class VersionExchange {
  public:
-  /// Takes a plan of which the executive tells. Returns whether it is news: none that is known, and not older than the
-  /// newest receipt. Another plan may have the number of one that was sent: a process that died had sent it.
+  /// Takes in a plan that the executive reports. Returns whether it is news: unknown, and not older than the newest
+  /// receipt. It may have the number of a plan that was sent here and yet be another one, sent by a process that died.
   bool take(const temporal::FlexiblePlan& executed);
-  /// Takes that this number was used.
+  /// Takes in that this number was used.
   void note(std::uint32_t version);
   void hear(const Receipt& receipt);
 
-  /// Returns whether the engine has something to hear of this; a refusal by its own checker is none,
-  /// since it would ask again and again.
+  /// Returns whether the engine has something to hear of this. A refusal by its own checker is not news,
+  /// since it would make the engine try again and again.
   bool has_news() const;
   /// Fills in receipt, executed version and highest number, and takes them as heard.
   void give(StepInputs& inputs);
-  /// Takes that the engine is another one, which knows nothing.
+  /// Takes in that the engine is a new one, which knows nothing.
   void engine_is_new();
 
-  /// The plan that the delta makes, in `next`. Returns what is wrong with it, empty if nothing is.
+  /// Fills `next` with the plan that the delta makes. Returns what is wrong with it, empty if nothing is.
   std::string apply(const temporal::PlanDelta& delta, temporal::FlexiblePlan& next) const;
   void sent(temporal::FlexiblePlan plan);
-  /// The engine's checker has refused this version: the engine hears it with its next step.
+  /// Takes in that the engine's checker has refused this version; the engine hears it with its next step.
   void refuse(std::uint32_t version, const std::string& reason);
 
-  /// Returns the version that is executed by the newest receipt; null: none, or it is not known yet.
+  /// Returns the version that is executed by the newest receipt, or null if there is none or it is not known
+  /// yet.
   const temporal::FlexiblePlan* executed() const;
   const temporal::FlexiblePlan* version(std::uint32_t number) const { return history_.version(number); }
   const std::optional<Receipt>& receipt() const { return newest_; }

@@ -199,8 +199,8 @@ void doubt_unknown_values(Result& result) {
   const std::string doubt = engine::doubt_of(result.functions);
   if (result.verdict != Verdict::unsolvable || doubt.empty()) return;
   result.verdict = Verdict::timeout;
+  result.lacks_values = true;
   result.reason = doubt + "; without that, " + result.reason;
-  result.blocked.clear();
 }
 
 }  // namespace

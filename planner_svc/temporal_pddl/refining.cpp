@@ -18,6 +18,9 @@ namespace {
 
 // After so many rounds nothing is left cheap, so that a call does not go on for long.
 constexpr std::size_t kMostRounds = 50;
+// Likewise in lazy mode, where a round finds out about one place at a time: a search that looks everywhere has touched
+// nearly all values in the end, and made as many searches as there are places (docs/adr/0018).
+constexpr std::size_t kMostLazyRounds = 10;
 // Evaluations for better plans in the first round that has no smaller budget for them; twice as many in each
 // round after one whose values were right.
 constexpr std::size_t kFirstImprovement = 2000;
@@ -152,7 +155,7 @@ class Refining {
 
   // Returns whether the call ends with the best plan. Makes the next round the last one if there were many.
   bool end_rounds() {
-    const bool last = rounds_ >= kMostRounds;
+    const bool last = rounds_ >= (is_lazy() ? kMostLazyRounds : kMostRounds);
     const bool accepts = !is_lazy() && (call_.options.improvement_evaluations == 0 || last);
     if (best_ && (accepts || out_of_time())) return true;
     if (last) values_.refine_all();

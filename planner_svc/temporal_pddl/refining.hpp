@@ -36,7 +36,7 @@ struct Attempt {
 
 using MakeAttempt = std::function<Result(const Attempt&)>;
 
-/// Is a whole call of the engine, but for what it refines.
+/// Describes a whole call of the engine, but for what it refines.
 struct RefinedCall {
   const pddl::Domain& domain;
   const pddl::Problem& problem;

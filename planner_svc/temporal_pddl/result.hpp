@@ -20,8 +20,11 @@ namespace roci::planner::temporal_pddl {
 struct Result {
   temporal::Verdict verdict = temporal::Verdict::invalid_input;
   std::string reason;  ///< what blocks, in words; empty with solved
-  /// Names, with unsolvable, facts of the goal that are out of reach, as far as they are known one by one.
+  /// Names, with unsolvable or lacks_values, facts of the goal that are out of reach, as far as they are known one by
+  /// one.
   std::vector<call::BlockedFact> blocked;
+  /// With timeout: there is no plan unless an owner finds a value that it has not found (FunctionOutcome::unknown).
+  bool lacks_values = false;
   std::optional<pddl::Diagnostic> where;  ///< of unsupported and invalid_input: the place in the model
   std::optional<extraction::Plan> plan;   ///< is there with solved alone
   call::Statistics statistics;

@@ -1,4 +1,5 @@
-// Actions and contingencies of a mission file: their owners, commands, arguments and properties.
+// This file checks actions and contingencies of a mission file: their owners, commands, arguments and
+// properties.
 #pragma once
 
 #include "rehearsal/check/checked_mission.hpp"

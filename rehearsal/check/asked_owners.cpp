@@ -21,7 +21,8 @@ namespace {
 
 constexpr auto kOfferWait = 2s;  // of wall time, until a service that is there has offered its functions
 constexpr auto kTurn = 20ms;     // of the asking node's loop
-constexpr double kBatchTimeoutS = 20;  // as planner_svc waits for a batch
+constexpr double kBatchTimeoutS =
+    120;  // six times what planner_svc waits: a busy machine is no mistake of the mission
 
 // Checks of one process do not hear each other.
 int next_domain() {

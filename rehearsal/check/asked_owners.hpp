@@ -1,4 +1,5 @@
-// The mission's own services in this process, asked for function values as the planner would ask them.
+// The mission's own services run in this process, and are asked for function values as the planner would ask
+// them.
 #pragma once
 
 #include <map>

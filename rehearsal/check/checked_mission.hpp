@@ -1,4 +1,4 @@
-// A mission as far as it could be read, which the checks look at.
+// A checked mission is a mission as far as it could be read, which the checks examine.
 #pragma once
 
 #include <optional>
@@ -28,6 +28,7 @@ struct CheckedExecutive {
   exec::mission::MissionModel model;
 };
 
+/// Holds a mission as far as it could be read.
 struct CheckedMission {
   std::filesystem::path folder;
   mission::Entry file;  ///< mission.yaml

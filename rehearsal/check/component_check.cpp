@@ -76,6 +76,9 @@ class ComponentCheck {
       return entry.at("name").complain("the simulated robot has no component '" + name + "'; " +
                                        instead_of(name, mission_.world.component_names(model->robot)));
     timelines_.require(entry.at("timeline"), model->timeline);
+    if (const auto lost = entry.find("lost"))
+      if (const auto services = lost->find("without"))
+        services->each([&](const Entry& one) { require_owner(one, mission_.services); });
     if (!simulated || !there->known) return;
     if (const auto fallback = entry.find("fallback");
         fallback && !contains(names_of(there->commands), model->fallback))

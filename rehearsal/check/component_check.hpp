@@ -1,4 +1,5 @@
-// Components, families, fluents and windows of a mission file against the services and the world.
+// This file checks components, families, fluents and windows of a mission file against the services and the
+// world.
 #pragma once
 
 #include "rehearsal/check/checked_mission.hpp"

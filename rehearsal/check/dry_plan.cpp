@@ -177,6 +177,7 @@ std::string why_not(const MissionModel& model, const GoalRequest& goal, const An
     case Verdict::unsolvable:
       break;
     case Verdict::timeout:
+      if (answer.lacks_values) break;
       return "none was found within planner.budget (work: " + std::to_string(model.planner.work) + ")";
     case Verdict::out_of_memory:
       return "none was found within planner.budget (memory_mb: " + std::to_string(model.planner.memory_mb) +
@@ -187,7 +188,7 @@ std::string why_not(const MissionModel& model, const GoalRequest& goal, const An
   for (const auto& blocking : answer.blocking) {
     const bool itself = blocking.issuer == goal.key.issuer && blocking.id == goal.key.id;
     const std::string whose = itself ? "" : "goal '" + blocking.id + "', which it needs, is out of reach: ";
-    if (is_said_by_owner(blocking.reason)) return whose + blocking.reason;
+    if (is_said_by_owner(blocking.reason) || !blocking.proved) return whose + blocking.reason;
     if (!blocking.timeline.empty())
       return whose + "from where the scenario starts no action brings about " + blocking.timeline;
   }

@@ -1,4 +1,4 @@
-// Whether each goal kind of a mission can be planned at all, from where its scenarios begin.
+// A dry plan tells whether each goal kind of a mission can be planned at all, from where its scenarios begin.
 #pragma once
 
 #include <string>
@@ -33,6 +33,7 @@ struct UnachievedKind {
   std::string details;
 };
 
+/// Holds which goal kinds were planned, which have no plan, and which were not tried.
 struct DryPlans {
   std::vector<PlannedKind> planned;
   std::vector<UnachievedKind> unachieved;

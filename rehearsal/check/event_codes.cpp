@@ -10,7 +10,7 @@ const std::vector<std::string>& event_codes() {
       "epoch.taken", "executive.resumed", "fact.left_out", "fallback.failed", "goal.accepted",
       "goal.achieved", "goal.dropped", "goal.failed", "goal.merged", "goal.no_room", "goal.recalled",
       "goal.refused", "goal.rejected", "goal.suspected", "goal.weighed", "hazard.refused", "hazard.seen", "image.unreadable", "journal.damaged",
-      "journal.diverged", "journal.shortened", "journal.waiting", "journal.written", "lead.split",
+      "journal.diverged", "journal.no_room", "journal.shortened", "journal.waiting", "journal.written", "lead.split",
       "lead.whole", "ledger.unwritten", "map.changed", "map.finding_refused", "map.patch_refused", "map.patch_taken", "map.told", "map.unknown", "model.no_room", "motion.refused",
       "network.accepted", "network.in_force", "network.refused", "observation.malformed", "order.accepted", "order.lost", "order.malformed", "order.no_room", "order.refused",
       "place.unusable", "plan.adopted", "plan.broken", "plan.conflict", "plan.finished", "plan.kept",

@@ -1,4 +1,4 @@
-// The codes of the events that the services of this repository tell: what a scenario may expect.
+// These are the codes of the events that the services of this repository report: what a scenario may expect.
 #pragma once
 
 #include <string>

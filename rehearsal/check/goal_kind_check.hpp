@@ -1,4 +1,5 @@
-// Goal kinds of a mission file: templates, timelines, and facts that something must bring about.
+// This file checks goal kinds of a mission file: templates, timelines, and facts that something must bring
+// about.
 #pragma once
 
 #include "rehearsal/check/checked_mission.hpp"

@@ -1,4 +1,4 @@
-// The map of a mission against what the mission places on it.
+// This file checks the map of a mission against what the mission places on it.
 #pragma once
 
 #include "rehearsal/check/checked_mission.hpp"

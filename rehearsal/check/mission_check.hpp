@@ -1,4 +1,4 @@
-// Everything that can be found wrong with a mission before it is flown.
+// The mission check finds everything that can be found wrong with a mission before it is flown.
 #pragma once
 
 #include <filesystem>
@@ -10,6 +10,7 @@
 
 namespace roci::rehearsal::check {
 
+/// Holds everything that was found wrong with a mission, and what was checked.
 struct CheckReport {
   mission::Findings findings;
   std::vector<std::string> scenarios;  ///< that were read

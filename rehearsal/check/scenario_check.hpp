@@ -1,4 +1,5 @@
-// Scenarios against the mission: their goals, windows, starts and the events that they expect.
+// This file checks scenarios against the mission: their goals, windows, starts and the events that they
+// expect.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// What the simulated robots of a mission are made of, and what they say of themselves.
+// This file reads what the simulated robots of a mission are made of, and what they say of themselves.
 #pragma once
 
 #include <string>
@@ -9,6 +9,7 @@
 
 namespace roci::rehearsal::check {
 
+/// Describes a component of a simulated robot, as far as its settings say.
 struct SimulatedComponent {
   std::string robot;
   std::string name;
@@ -27,7 +28,7 @@ struct SimulatedFamily {
   std::vector<sim::world::StateForm> states;
 };
 
-/// Is empty for a mission whose world is not sim_svc's.
+/// Holds the simulated world; it is empty for a mission whose world is not sim_svc's.
 struct SimulatedWorld {
   std::string service;  ///< of the mission that simulates it; empty: none does
   std::vector<std::string> robots;

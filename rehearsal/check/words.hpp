@@ -1,4 +1,4 @@
-// What is said of words that nobody knows.
+// This file says what is said of unknown words.
 #pragma once
 
 #include <string>

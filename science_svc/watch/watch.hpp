@@ -14,6 +14,7 @@ namespace roci::science::watch {
 /// Timelines whose newest state the watch remembers; of those beyond, nothing is raised.
 inline constexpr std::size_t kTimelines = 10'000;
 
+/// Says how much a goal matters, in the order of GoalClass in idl/goal.idl.
 enum class GoalClass { hard, optional, opportunistic };
 
 /// Says what is to be asked for when a timeline enters a state.
@@ -26,7 +27,7 @@ struct Rule {
   double utility = 1;
 };
 
-/// Is a goal that nobody asked for.
+/// Describes a goal that nobody asked for.
 struct Wish {
   std::string id;
   std::string goal_kind;

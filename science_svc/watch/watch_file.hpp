@@ -1,4 +1,4 @@
-// The section `watch` of a mission file: goals that states of timelines raise.
+// This file reads the section `watch` of a mission file: goals that states of timelines raise.
 #pragma once
 #include <vector>
 

@@ -1,4 +1,4 @@
-// Goals raised on board, as observations come over DDS.
+// Goals are raised on board as observations come over DDS.
 #pragma once
 #include <memory>
 

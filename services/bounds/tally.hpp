@@ -1,4 +1,5 @@
-// Counts what is refused without a line or an event for each: whoever sends a million bad samples writes seven lines.
+// A tally counts what is refused without a line or an event for each: a sender of a million bad samples causes seven
+// lines.
 #pragma once
 
 #include <cstddef>
@@ -10,14 +11,14 @@
 
 namespace roci::services::bounds {
 
-/// Tells a count the first time, and then each time that it has grown tenfold. Beyond kNames names the rest share one.
+/// Reports a count the first time, and then each time that it has grown tenfold. Names beyond kNames share one count.
 class Tally {
  public:
-  /// Counts one more of `what`, and returns the count if it is worth telling, else 0.
+  /// Counts one more of `what`, and returns the count if it is to be reported, else 0.
   std::uint64_t note(std::string_view what);
   std::uint64_t count(std::string_view what) const;
 
-  static constexpr std::size_t kNames = 256;  ///< Some eight for each topic that there is.
+  static constexpr std::size_t kNames = 256;  ///< some eight for each topic
 
  private:
   std::map<std::string, std::uint64_t, std::less<>> counts_;

@@ -14,22 +14,22 @@
 
 namespace roci::services::certificate {
 
-/// The vendors for which certificates are made, each of its own.
+/// Names the vendors, each of which has certificates of its own.
 inline constexpr std::string_view kVendors[] = {"fastdds", "cyclonedds"};
 
-/// A subject name: O=Rocinante, OU=<vendor>-<number>, CN=<service>, all of them UTF-8 strings.
+/// Holds a subject name: O=Rocinante, OU=<vendor>-<number>, CN=<service>, all of them UTF-8 strings.
 struct Subject {
   std::string service;
   std::string unit;
 
-  /// As permissions name it (RFC 2253), e.g. "CN=exec_svc,OU=fastdds-0,O=Rocinante".
+  /// Returns the name as permissions have it (RFC 2253), e.g. "CN=exec_svc,OU=fastdds-0,O=Rocinante".
   std::string text() const;
-  /// As it stands in the certificate.
+  /// Returns the name as the certificate has it.
   std::vector<std::uint8_t> der() const;
 };
 
-/// The subject of a service's certificate at a vendor. A service's name consists of letters, digits, '_', '-' and '.'
-/// (core/mission/service_list.hpp); throws std::invalid_argument otherwise.
+/// Returns the subject of a service's certificate at a vendor. A service's name consists of letters, digits, '_', '-'
+/// and '.' (core/mission/service_list.hpp); throws std::invalid_argument otherwise.
 Subject subject_of(std::string_view service, std::string_view vendor);
 
 }  // namespace roci::services::certificate

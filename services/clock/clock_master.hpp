@@ -22,30 +22,32 @@ namespace roci::services::clock {
 
 inline constexpr std::uint32_t kMicroStepCap = 10'000;
 
+/// Decides as a pure state machine which step comes next, from what the participants say of their inputs and
+/// wishes.
 class ClockMaster {
  public:
   ClockMaster(std::string name, std::vector<std::string> roster,
               std::uint32_t micro_step_cap = kMicroStepCap);
 
-  /// These take what the participants say. Messages of older incarnations or steps change nothing. They return false
-  /// for what finds no room (bounds/limits.hpp): a service that is new beside kPeers or after kRosterLosses deaths,
+  /// Take what the participants say. Messages of older incarnations or steps change nothing. They return false for
+  /// what finds no room (bounds/limits.hpp): a service that is new beside kPeers or after kRosterLosses deaths,
   /// which is not admitted; streams that are new beside kCountedStreams, which are not counted.
   bool ready(const v1::ClockReady&);
   bool done(const v1::ClockDone&);
   void lost(const std::string& service, std::uint32_t incarnation, const std::string& cause);
-  /// Waits no longer for a service of the roster; it may still come.
+  /// Stops waiting for a service of the roster, which may still come.
   void excuse(const std::string& service) { std::erase(roster_, service); }
 
-  /// The services of the roster that are not there yet, or were lost.
+  /// Returns the services of the roster that are not there yet, or were lost.
   std::vector<std::string> missing() const;
-  /// The services that must still answer the open step.
+  /// Returns the services that must still answer the open step.
   std::vector<std::string> awaited() const;
   bool member(const std::string& service) const { return members_.contains(service); }
   temporal::Time time() const { return time_; }
 
-  /// The next step may be issued exactly at `earliest` or, if only input from outside asks for it, anywhere
-  /// up to `latest`. There is no window while a step is open, the roster is incomplete or nobody wants to
-  /// act.
+  /// Says when the next step may be issued: exactly at `earliest` or, if only input from outside asks for it,
+  /// anywhere up to `latest`. There is no window while a step is open, the roster is incomplete or nobody
+  /// wants to act.
   struct Window {
     temporal::Time earliest;
     temporal::Time latest;

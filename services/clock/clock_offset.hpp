@@ -18,7 +18,7 @@
 
 namespace roci::services::clock {
 
-/// The four times of one question and its answer, each by the clock of who noted it.
+/// Holds the four times of one question and its answer, each by the clock of who noted it.
 struct ClockExchange {
   temporal::Time asked{};     ///< own
   temporal::Time received{};  ///< of the mission clock
@@ -26,23 +26,24 @@ struct ClockExchange {
   temporal::Time heard{};     ///< own
 };
 
-/// The own clock minus the mission clock, now.
+/// Holds the own clock minus the mission clock, now.
 struct ClockOffset {
   temporal::Duration offset{0};
-  temporal::Duration error{0};  ///< The true offset is at most so far away.
-  double drift_ppm = 0;         ///< How fast the offset grows: microseconds in a second.
-  double drift_error_ppm = std::numeric_limits<double>::infinity();  ///< Infinite while nothing is known.
+  temporal::Duration error{0};  ///< the true offset is at most this far away
+  double drift_ppm = 0;         ///< growth of the offset, microseconds per second
+  double drift_error_ppm = std::numeric_limits<double>::infinity();  ///< infinite while nothing is known
 };
 
+/// Estimates offset and drift from exchanges, each with a bound of its error.
 class OffsetEstimator {
  public:
-  /// No clock is taken to drift faster; what differs more from what was known is a clock that was set.
+  /// Bounds the assumed drift of a clock; a larger difference means that a clock was set.
   static constexpr double kFastestDriftPpm = 500;
 
-  /// Takes an exchange; one that cannot be (an answer before the question) changes nothing. After a step of
-  /// either clock all that was known is forgotten.
+  /// Takes an exchange; an impossible one (an answer before the question) changes nothing. After a step of
+  /// either clock all earlier exchanges are forgotten.
   void add(const ClockExchange&);
-  /// Empty before the first exchange.
+  /// Returns the estimate, or nothing before the first exchange.
   std::optional<ClockOffset> estimate() const;
 
  private:
@@ -62,13 +63,13 @@ class OffsetEstimator {
   std::size_t since_history_ = 0;
 };
 
-/// What a host's clock may differ by.
+/// Bounds how far a host's clock may differ.
 struct ClockBounds {
   temporal::Duration offset = std::chrono::milliseconds(250);
   double drift_ppm = 200;
 };
 
-/// Says when a clock goes beyond a bound and when it is back. Beyond it is only what no error explains, so
+/// Says when a clock goes beyond a bound and when it is back. Only what no error explains is beyond it, so
 /// that a slow network alone raises nothing.
 class ClockJudge {
  public:
@@ -77,7 +78,7 @@ class ClockJudge {
   struct Change {
     std::string code;  ///< "clock.offset" or "clock.drift"
     bool beyond = false;
-    std::string text;  ///< For people: figure, error and bound.
+    std::string text;  ///< for people: figure, error and bound
   };
   std::vector<Change> judge(const ClockOffset&);
   bool beyond() const { return offset_beyond_ || drift_beyond_; }

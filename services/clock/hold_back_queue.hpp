@@ -1,6 +1,6 @@
-// The samples that one participant of the simulated clock has received, held back until a micro-step delivers
-// them in the order that all participants share (the hold-back queue of totally ordered multicast; Coulouris
-// et al., Distributed Systems, 2011, section 15.4). Pure.
+// The hold-back queue has the samples that one participant of the simulated clock has received, until a
+// micro-step delivers them in the order that all participants share (the hold-back queue of totally ordered
+// multicast; Coulouris et al., Distributed Systems, 2011, section 15.4). Pure.
 //
 // A stream is (topic, sender, incarnation), where the topic may name the sender's robot (stream_topic.hpp); its samples
 // are numbered without gaps from 1. A step announces
@@ -22,6 +22,7 @@
 
 namespace roci::services::clock {
 
+/// Names a stream of samples, numbered without gaps from 1.
 struct StreamKey {
   std::string topic;
   std::string sender;
@@ -29,29 +30,32 @@ struct StreamKey {
   auto operator<=>(const StreamKey&) const = default;
 };
 
+/// Holds a sample that a micro-step delivers.
 struct Delivery {
-  std::string topic;  ///< Without the robot of the stream.
-  std::shared_ptr<const void> value;  ///< Null for a sample that was counted and could not be read.
+  std::string topic;                  ///< without the robot of the stream
+  std::shared_ptr<const void> value;  ///< null for a sample that was counted and could not be read
 };
 
-/// What a participant that joins late is given of a topic's past (the durability QoS of DDS).
+/// Says what a participant that joins late is given of a topic's past (the durability QoS of DDS).
 enum class Durability {
-  volatile_,        ///< It gets nothing.
-  transient_local,  ///< It gets the newest sample of each key.
+  volatile_,        ///< nothing
+  transient_local,  ///< the newest sample of each key
 };
 
+/// Delivers each sample of one participant exactly once, in the order that all participants share.
 class HoldBackQueue {
  public:
-  using Key = std::vector<std::uint8_t>;  ///< The serialized key of an instance.
+  using Key = std::vector<std::uint8_t>;  ///< the serialized key of an instance
   using KeyOf = std::function<Key(const void* value)>;
 
-  /// `key_of` tells the instances of a topic apart. `topic` may name a robot, or kEveryRobot.
+  /// Subscribes to a topic, whose instances `key_of` tells apart. `topic` may name a robot, or kEveryRobot.
   void subscribe(const std::string& topic, Durability, KeyOf key_of);
-  /// False, and the sample is gone, when kHeldBackStreams are known or kHeldBackSamples of its stream wait
-  /// (bounds/limits.hpp): no clock announces so many.
+  /// Adds a sample. Returns false, and drops the sample, when kHeldBackStreams are known or kHeldBackSamples
+  /// of its stream wait (bounds/limits.hpp): no clock announces so many.
   bool add(const std::string& topic, const v1::SampleHeader&, std::shared_ptr<const void> value);
 
-  /// True when all is there that the step announces. Senders that are not in its roster are not waited for.
+  /// Returns whether all samples that the step announces are there. Senders outside its roster are not waited
+  /// for.
   bool complete(const v1::ClockStep&) const;
   /// Names the streams that complete() misses, for people: "topic sender#incarnation 3/5".
   std::vector<std::string> missing(const v1::ClockStep&) const;
@@ -70,7 +74,7 @@ class HoldBackQueue {
     std::map<std::uint64_t, std::shared_ptr<const void>> held;
     void close_gaps();
   };
-  /// The streams with samples to deliver, in the order of delivery.
+  /// Returns the streams with samples to deliver, in the order of delivery.
   std::vector<const v1::StreamCount*> grown(const v1::ClockStep&) const;
   bool has_all(const v1::StreamCount&) const;
   bool awaited(const v1::ClockStep&, const v1::StreamCount&) const;

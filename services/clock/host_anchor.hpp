@@ -38,16 +38,16 @@ const std::optional<HostAnchor>& handed_anchor();
 /// Tells when the system clock leaves the anchored one, and when it comes back to it. It is pure.
 class SystemClockWatch {
  public:
-  /// So far may the two be apart, in microseconds, before it is told: as far as the clocks of two hosts
-  /// (ClockBounds::offset).
+  /// Bounds how far the two may be apart, in microseconds, before it is reported: as far as the clocks of two
+  /// hosts (ClockBounds::offset).
   static constexpr std::int64_t kBoundUs = 250'000;
 
-  /// Takes both clocks. Returns a sentence when the system clock has moved by more than the bound since it was last
-  /// told of (a clock that creeps is told once for each bound).
+  /// Takes both clocks. Returns a sentence when the system clock has moved by more than the bound since the last
+  /// report (a clock that creeps is reported once for each bound).
   std::optional<std::string> judge(std::int64_t anchored_us, std::int64_t system_us);
 
  private:
-  std::int64_t told_us_ = 0;  // how far the system clock was ahead when that was last told
+  std::int64_t told_us_ = 0;  // how far the system clock was ahead at the last report
 };
 
 }  // namespace roci::services::clock

@@ -1,4 +1,4 @@
-// Keeps simulated time at most `rate` times as fast as wall time.
+// The pace ties simulated time to wall time.
 #pragma once
 
 #include "core/temporal/duration.hpp"
@@ -6,6 +6,7 @@
 
 namespace roci::services::clock {
 
+/// Keeps simulated time at most `rate` times as fast as wall time.
 class Pace {
  public:
   /// `rate` is in simulated seconds per wall second; 0 means no limit.

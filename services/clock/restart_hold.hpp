@@ -1,5 +1,5 @@
-// How long the simulated clock stands still after a death, so that mission time does not run on without a
-// service that is about to return, or that another process is about to stand in for. Pure.
+// The restart hold keeps the simulated clock still after a death, so that mission time does not run on
+// without a service that is about to return, or that another process is about to stand in for. It is pure.
 #pragma once
 
 #include <string_view>
@@ -8,17 +8,20 @@
 
 namespace roci::services::clock {
 
+/// Says whether the clock stands still for a service that is about to be replaced, for `length` of wall time
+/// at most.
 class RestartHold {
  public:
   explicit RestartHold(WallDuration length) : length_(length) {}
 
-  /// `cause` is that of PeerChange. Somebody is about to start a killed one again, or has and it is about to
-  /// say that it is ready; one that left or hangs will not be back soon.
+  /// Begins a hold for a `cause` (that of PeerChange) after which the service will be back soon: it was
+  /// killed, or was restarted and is about to be ready. One that left or hangs begins none.
   void lost(std::string_view cause, WallTime now) {
     if (cause == "killed" || cause == "restarted") until_ = now + length_;
   }
 
-  /// `complete` says that every service of the roster is there, so that nobody is waited for.
+  /// Returns whether the clock stands still. `complete` says that every service of the roster is there, so
+  /// that none is waited for.
   bool holds(bool complete, WallTime now) const { return !complete && now < until_; }
 
  private:

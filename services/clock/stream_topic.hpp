@@ -1,5 +1,6 @@
-// How the simulated clock names the topic of a stream. Samples of a topic that is inner to one robot never reach the
-// services of another, so the clock counts them apart, and who cannot hear a stream does not wait for it.
+// This file says how the simulated clock names the topic of a stream. Samples of a topic that is inner to one robot
+// never reach the services of another, so the clock counts them apart, and services that cannot hear a stream do not
+// wait for it.
 #pragma once
 
 #include <string>

@@ -6,7 +6,7 @@
 
 namespace roci::services::clock {
 
-/// The clock is monotonic: it neither jumps nor stands still, and has no date.
+/// Names the monotonic clock, which neither jumps nor stands still, and has no date.
 using WallClock = std::chrono::steady_clock;
 using WallTime = WallClock::time_point;
 using WallDuration = WallClock::duration;

@@ -9,8 +9,8 @@
 
 namespace roci::services::commander {
 
+using owner::CommandStatus;
 using owner::Stage;
-using owner::Word;
 
 CommandClient::CommandClient(Node& node, std::uint64_t epoch, OnIssue on_issue)
     : node_(node),
@@ -131,18 +131,18 @@ void CommandClient::take(const Key& key, UnderWay& one, const v1::CommandAck& ac
     }
     return await(key);
   }
-  const Word word = owner::word_from_wire(ack);
-  switch (word.stage) {
+  const CommandStatus status = owner::status_from_wire(ack);
+  switch (status.stage) {
     case Stage::accepted:
       one.accepted = true;
       if (one.timer && !one.cancelling) node_.cancel(*std::exchange(one.timer, std::nullopt));
       if (!one.ours) cancel(key.first, key.second);
       return;
-    case Stage::cancel_failed:  // it runs on, or has ended: its last word says
+    case Stage::cancel_failed:  // it runs on, or has ended: its last status says
       one.cancelling = false;
       one.asked = 0;
       if (one.timer) node_.cancel(*std::exchange(one.timer, std::nullopt));
-      if (word.code == "already-ended") {
+      if (status.code == "already-ended") {
         send(one, v1::COMMAND_QUERY);
         await(key);
       }
@@ -154,16 +154,16 @@ void CommandClient::take(const Key& key, UnderWay& one, const v1::CommandAck& ac
       send(one, v1::COMMAND_EXECUTE);
       return await(key);
     default:
-      return end(key, word);
+      return end(key, status);
   }
 }
 
-void CommandClient::end(const Key& key, Word word) {
+void CommandClient::end(const Key& key, CommandStatus status) {
   const auto found = under_way_.find(key);
   if (found->second.timer) node_.cancel(*found->second.timer);
   const OnEnd on_end = std::move(found->second.on_end);
   under_way_.erase(found);
-  on_end(word);
+  on_end(status);
 }
 
 }  // namespace roci::services::commander

@@ -17,14 +17,14 @@ namespace roci::services::health {
 
 /// Holds the state of each service and tells of each change once.
 ///
-/// The incarnation that is heard counts. Another one takes its place only when it has been silent: a later one after
-/// kStillHeard, an earlier one, or one more than kIncarnationJump later, after the limit for a hang. So a forged
-/// heartbeat replaces nobody who is heard, and what it has replaced comes back.
+/// The incarnation that is heard counts. Another one replaces it only when it has been silent: a later one after
+/// kStillHeard; an earlier one, or one more than kIncarnationJump later, after the limit for a hang. A forged
+/// heartbeat thus replaces nobody who is heard, and a service that it has replaced comes back.
 class FailureDetector {
  public:
-  /// Heartbeats come four times a second, so whoever was heard within this time still runs.
+  /// Says how lately a service must have been heard to count as running; heartbeats come four times a second.
   static constexpr clock::WallDuration kStillHeard = std::chrono::milliseconds(600);
-  /// No service is started so often while nobody hears of it.
+  /// Bounds the believable jump of incarnations: no service is started so often while nobody hears of it.
   static constexpr std::uint32_t kIncarnationJump = 1000;
 
   explicit FailureDetector(clock::WallDuration hang_limit) : hang_limit_(hang_limit) {}

@@ -10,19 +10,19 @@ constexpr clock::WallDuration kForgotten = std::chrono::seconds(5);
 
 }  // namespace
 
-NamesakeWatch::Verdict NamesakeWatch::hear(const v1::Heartbeat& beat, clock::WallTime now) {
+NamesakeWatch::Precedence NamesakeWatch::hear(const v1::Heartbeat& beat, clock::WallTime now) {
   const bool own = beat.host() == self_.host() && beat.process_id() == self_.process_id();
   if (beat.service() != self_.service() || own || beat.state() == v1::SERVICE_STOPPING)
-    return Verdict::nothing;
+    return Precedence::nothing;
   std::erase_if(namesakes_, [&](const auto& one) { return now - one.second.last > kForgotten; });
   const std::pair key(beat.host(), beat.process_id());
-  if (namesakes_.size() >= kMost && !namesakes_.contains(key)) return Verdict::nothing;
+  if (namesakes_.size() >= kMost && !namesakes_.contains(key)) return Precedence::nothing;
   Namesake& other = namesakes_.try_emplace(key, Namesake{now, now}).first->second;
   other.last = now;
-  if (++other.beats < kBeats || now - other.first < kHeardFor) return Verdict::nothing;
-  if (wins(beat)) return Verdict::yields;
-  if (std::exchange(other.told, true)) return Verdict::nothing;
-  return Verdict::goes_on;
+  if (++other.beats < kBeats || now - other.first < kHeardFor) return Precedence::nothing;
+  if (wins(beat)) return Precedence::yields;
+  if (std::exchange(other.told, true)) return Precedence::nothing;
+  return Precedence::goes_on;
 }
 
 bool NamesakeWatch::wins(const v1::Heartbeat& other) const {

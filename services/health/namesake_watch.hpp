@@ -15,35 +15,35 @@
 
 namespace roci::services::health {
 
-/// Is thrown where this process must end, as another one has its name. No restart mends that.
+/// Ends this process, since another one has its name. No restart mends that.
 class Superseded : public std::invalid_argument {
  public:
   using std::invalid_argument::invalid_argument;
 };
 
-/// Both processes come to the same answer: the later incarnation goes on; of equal ones the one on the host that comes
-/// first by name, and there the one with the lower process id. A namesake counts only when it has been heard kBeats
-/// times over kHeardFor, so that a forged heartbeat ends nobody.
+/// Decides which of two processes of one name goes on, the same in both: the later incarnation; of equal ones the one
+/// on the host that comes first by name, and there the one with the lower process id. A namesake counts only when it
+/// has been heard kBeats times over kHeardFor, so that a forged heartbeat ends nobody.
 class NamesakeWatch {
  public:
   static constexpr int kBeats = 4;
   static constexpr clock::WallDuration kHeardFor = std::chrono::milliseconds(700);
-  /// Whoever claims to have been started so much more often is not believed.
+  /// Bounds the believable difference of incarnations.
   static constexpr std::uint32_t kIncarnationJump = FailureDetector::kIncarnationJump;
-  /// So many namesakes are looked after at a time.
+  /// Bounds the namesakes that are watched at a time.
   static constexpr std::size_t kMost = 8;
 
-  enum class Verdict {
+  enum class Precedence {
     nothing,  ///< it is this process, or not heard for long enough, or told before
     goes_on,  ///< the namesake ends; operators are to be told of it
     yields,   ///< this process must end
   };
 
-  /// `self`: service, incarnation, host and process id.
+  /// Watches for namesakes of `self`: its service, incarnation, host and process id.
   explicit NamesakeWatch(v1::Heartbeat self) : self_(std::move(self)) {}
 
   /// Takes a heartbeat of this run.
-  Verdict hear(const v1::Heartbeat& beat, clock::WallTime now);
+  Precedence hear(const v1::Heartbeat& beat, clock::WallTime now);
 
  private:
   struct Namesake {

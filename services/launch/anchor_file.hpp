@@ -9,12 +9,12 @@
 
 namespace roci::services::launch {
 
-/// It lies in the run folder of the host.
+/// Names the anchor's file in the run folder of the host.
 inline constexpr char kAnchorFile[] = "clock-anchor";
 
-/// Returns the anchor in the folder; makes it if there is none of this start of the host. Of several processes that
-/// come at once one makes it. Empty while the system clock stands before mission time 0 (`epoch_unix_us`): it has not
-/// been set since the host was started, and nothing is anchored to it. Throws std::system_error.
+/// Returns the anchor in the folder, and makes it if there is none of this start of the host; of several processes
+/// that come at once one makes it. Returns nothing while the system clock stands before mission time 0
+/// (`epoch_unix_us`), since it has not been set then since the host was started. Throws std::system_error.
 std::optional<clock::HostAnchor> kept_anchor(const std::filesystem::path& folder, std::int64_t epoch_unix_us);
 
 }  // namespace roci::services::launch

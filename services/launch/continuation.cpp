@@ -13,8 +13,8 @@
 #include <string_view>
 #include <system_error>
 
+#include "core/durable/durable_file.hpp"
 #include "services/launch/options.hpp"
-#include "services/process/durable_file.hpp"
 
 namespace roci::services::launch {
 namespace {
@@ -139,7 +139,7 @@ void keep_command_line(const Options& options, const clock::HostAnchor& anchor, 
                   {"epoch_unix_us", epoch_unix_us},
                   {"anchor", to_text(anchor)},
                   {"launchers", (options.continued ? options.continued->launchers : 0) + 1}};
-  services::process::replace_file(options.run_folder / kContinuationFile, kept.dump(2) + "\n");
+  durable::replace_file(options.run_folder / kContinuationFile, kept.dump(2) + "\n");
 }
 
 FolderLock::FolderLock(const fs::path& run_folder)

@@ -13,17 +13,17 @@ namespace roci::services::launch {
 
 struct Options;
 
-/// Is the version of the file's schema (docs/formats.md).
+/// Numbers the version of the file's schema (docs/formats.md).
 inline constexpr int kContinuationFormat = 1;
 
-/// It lies in the run folder.
+/// Names the file in the run folder.
 inline constexpr char kContinuationFile[] = "launch.json";
 
 /// Holds what a launcher takes over from the one before.
 struct Continuation {
-  std::int64_t epoch_unix_us = 0;             ///< Mission time 0 of the run.
-  std::optional<clock::HostAnchor> anchor{};  ///< Of the host, if it has not been started anew since.
-  int launchers = 0;                          ///< That have flown the run so far.
+  std::int64_t epoch_unix_us = 0;             ///< mission time 0 of the run
+  std::optional<clock::HostAnchor> anchor{};  ///< the host's, if it has not been started anew since
+  int launchers = 0;                          ///< number of launchers that have flown the run so far
   /// Returns the incarnation before the first one of this launcher: each start of a service in a run has one of its
   /// own, and no launcher starts one so often.
   std::uint32_t incarnations() const { return static_cast<std::uint32_t>(launchers) * 10'000; }
@@ -31,7 +31,7 @@ struct Continuation {
 
 /// Holds a command line, and what of it comes from an earlier launcher.
 struct ContinuedCommandLine {
-  /// Comes without the program, and in the order that CLI11 takes: the last one first.
+  /// Holds the arguments without the program, in the order that CLI11 takes: the last one first.
   std::vector<std::string> arguments;
   std::optional<Continuation> continued;
 };

@@ -15,8 +15,8 @@ namespace roci::services::launch {
 
 /// Holds what the command line and the mission say of a run.
 struct Options {
-  std::filesystem::path mission;  ///< Is a folder with mission.yaml.
-  mission::ServiceList list;      ///< Names who there is to start in the mission.
+  std::filesystem::path mission;  ///< folder with mission.yaml
+  mission::ServiceList list;      ///< services of the mission
   std::string scenario = "nominal";
   std::uint64_t seed = 1;
   bool live = false;
@@ -24,19 +24,19 @@ struct Options {
   std::optional<double> speed;
   bool headless = false;
   bool json = false;
-  bool standby = false;               ///< Services that can be paired have a second process.
-  double watchdog_s = 10;             ///< Is the silence after which a service counts as hung; 0: never.
-  std::vector<std::string> services;  ///< Are started here: services and their standbys.
-  std::vector<std::string> roster;    ///< Are the services of the whole run.
-  std::string run;                    ///< Is the identity of the run; every host's launcher has the same.
+  bool standby = false;               ///< services that can be paired have a second process
+  double watchdog_s = 10;             ///< silence after which a service counts as hung; 0: never
+  std::vector<std::string> services;  ///< services and standbys that are started here
+  std::vector<std::string> roster;    ///< services of the whole run
+  std::string run;                    ///< identity of the run; every host's launcher has the same
   /// Names the one service that this process turns into; if it is empty, the launcher stays.
   std::string become;
-  double epoch_s = 0;                ///< With `become`, it is mission time 0 of the live run, s since 1970.
-  std::filesystem::path run_folder;  ///< If empty, the launcher chooses one.
-  std::optional<Continuation> continued{};  ///< The run was begun by an earlier launcher.
+  double epoch_s = 0;                       ///< with `become`: mission time 0 of the live run, s since 1970
+  std::filesystem::path run_folder;         ///< if empty, the launcher chooses one
+  std::optional<Continuation> continued{};  ///< set if an earlier launcher began the run
   bool domain_given = false;
-  bool shared_domain = false;                ///< Another run may be on the domain.
-  services::process::Connection connection;  ///< Its `dds` may be "mixed" or "inproc".
+  bool shared_domain = false;                ///< another run may be on the domain
+  services::process::Connection connection;  ///< its `dds` may be "mixed" or "inproc"
 };
 
 /// Returns the name of the second process of a paired service; it is no member of the roster of its own.

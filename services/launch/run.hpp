@@ -7,7 +7,7 @@
 
 namespace roci::services::launch {
 
-/// docs/exit-codes.md lists these under "Runs".
+/// Says how a run ended; docs/exit-codes.md lists these under "Runs".
 enum ExitCode { kAchieved = 0, kNotAchieved = 1, kBadInput = 2, kServiceFailed = 3 };
 
 /// Flies the mission and prints the outcome. `stop_asked` tells how often the user has asked for the end so

@@ -11,8 +11,8 @@ namespace roci::services::launch {
 struct Summary {
   /// Says that every hard goal was achieved; where exec_svc does not run, that the services ended well.
   bool good = false;
-  std::string json;  ///< Is one line.
-  std::string text;  ///< Says the same for people.
+  std::string json;  ///< one line
+  std::string text;  ///< the same for people
 };
 
 /// Completes run_folder/summary.json and reads it. Where exec_svc flew here and left none, the result is

@@ -1,5 +1,5 @@
-// One direction of a link as one receiver sees it: which samples arrive, and when. Pure: the time is an
-// argument, and chance is a function of the sample.
+// A channel is one direction of a link as one receiver sees it: which samples arrive, and when. It is pure:
+// the time is an argument, and chance is a function of the sample.
 //
 // Samples are sent one after the other, each for (bits / rate), and arrive one light time after their last
 // bit. Whether an attempt is lost depends on (seed, link, topic, sender, incarnation, number, attempt) alone,
@@ -22,51 +22,52 @@
 
 namespace roci::services::link {
 
-/// How long after the end of the first lost attempt, and one round trip, the next one begins. The pause doubles
+/// Begins the next attempt so long, and one round trip, after the end of the first lost one. The pause doubles
 /// with each further one, up to the longest.
 inline constexpr temporal::Duration kRepetitionPause = std::chrono::milliseconds(200);
 inline constexpr temporal::Duration kLongestRepetitionPause = std::chrono::seconds(10);
 
-/// So many samples without repetition may wait for a narrow link; more are lost.
+/// Bounds the samples without repetition that may wait for a narrow link; more are lost.
 inline constexpr std::size_t kLongestQueue = 4096;
 
-/// So many samples of a direction may be under way, and instances of state topics be known; what comes beyond is lost.
-/// At a light time of twenty minutes that is fifty samples a second.
+/// Bounds the samples of a direction that are under way, and the known instances of state topics; what comes beyond is
+/// lost. At a light time of twenty minutes that is fifty samples a second.
 inline constexpr std::size_t kLongestFlight = 65'536;
 
-/// The light time there and back.
+/// Returns the light time there and back.
 constexpr temporal::Duration round_trip(const Link& link) { return 2 * link.light_time; }
 
+/// Says what becomes of a sample that was lost.
 enum class Lifetime {
-  once,    ///< A sample that is lost is lost.
-  newest,  ///< The newest sample of an instance arrives in the end.
+  once,    ///< it stays lost
+  newest,  ///< the newest sample of an instance arrives in the end
 };
 
-/// What the model knows of a sample on its way over a link.
+/// Holds what the model knows of a sample on its way over a link.
 struct LinkSample {
   std::string topic;
   std::string sender;
   std::uint32_t incarnation = 0;
-  std::uint64_t number = 0;  ///< Of the sender's samples on the topic, from 1.
+  std::uint64_t number = 0;  ///< place among the sender's samples on the topic, from 1
   std::size_t bytes = 0;
   Lifetime lifetime = Lifetime::once;
-  std::string instance{};  ///< The key, with Lifetime::newest.
+  std::string instance{};  ///< the key, with Lifetime::newest
   std::shared_ptr<const void> value{};
 };
 
-/// What has become of the samples of a channel, or of several.
+/// Counts what has become of the samples of a channel, or of several.
 struct Counts {
-  std::uint64_t offered = 0;     ///< Samples that were sent.
-  std::uint64_t arrived = 0;     ///< Of these, at once or later.
-  std::uint64_t lost = 0;        ///< Of these, for good: by chance, or because the link was closed.
-  std::uint64_t superseded = 0;  ///< Of these: a newer one of the instance was sent instead.
-  std::uint64_t under_way = 0;   ///< Of these, at the time of asking.
-  std::uint64_t repeated = 0;    ///< Attempts that were made again.
+  std::uint64_t offered = 0;     ///< samples that were sent
+  std::uint64_t arrived = 0;     ///< of these, at once or later
+  std::uint64_t lost = 0;        ///< of these, for good: by chance, or because the link was closed
+  std::uint64_t superseded = 0;  ///< of these: a newer one of the instance was sent instead
+  std::uint64_t under_way = 0;   ///< of these, at the time of asking
+  std::uint64_t repeated = 0;    ///< attempts that were made again
   Counts& operator+=(const Counts&);
   bool operator==(const Counts&) const = default;
 };
 
-/// Is an attempt to send a sample that did not bring it there.
+/// Describes a failed attempt to send a sample.
 struct Loss {
   temporal::Time at{};
   LinkSample sample;
@@ -74,12 +75,13 @@ struct Loss {
   Fate fate = Fate::lost;
 };
 
-/// So many losses wait to be taken; what is lost beyond is counted alone.
+/// Bounds the losses that wait to be taken; further ones are only counted.
 inline constexpr std::size_t kMostLosses = 65'536;
 
+/// Decides which samples arrive and when, by the link's windows, light time, rate and loss.
 class Channel {
  public:
-  /// The link outlives this.
+  /// The link must outlive the channel.
   Channel(const Link& link, std::uint64_t seed) : link_(&link), seed_(seed) {}
 
   /// Takes a sample that is sent now. Returns true if it arrives now; else take() returns it when it arrives,
@@ -92,9 +94,10 @@ class Channel {
   };
   /// Removes and returns what has arrived by now, in the order of arrival, then of sending.
   std::vector<Arrival> take(temporal::Time now);
-  /// Removes and returns what was lost since this was asked last, in the order of losing.
+  /// Removes and returns what was lost since the last call, in the order of losing.
   std::vector<Loss> take_losses();
-  /// When take() or the channel itself has something to do next; empty: not before another offer().
+  /// Returns when take() or the channel itself has something to do next, or nothing if not before another
+  /// offer().
   std::optional<temporal::Time> next() const;
 
   Counts counts() const;
@@ -128,7 +131,7 @@ class Channel {
   std::vector<Loss> losses_;
 };
 
-/// A number from 0 up to 1 that depends on these alone.
+/// Returns a number in [0, 1) that depends on these arguments alone.
 double chance(std::uint64_t seed, const std::string& link, const LinkSample&, std::uint32_t attempt);
 
 }  // namespace roci::services::link

@@ -1,4 +1,4 @@
-// The links of a scenario file.
+// This file reads the links of a scenario.
 #pragma once
 
 #include <cstdint>

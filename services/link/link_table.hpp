@@ -1,4 +1,4 @@
-// Which link joins two services of a run.
+// The link table says which link joins two services of a run.
 #pragma once
 
 #include <cstdint>
@@ -11,14 +11,15 @@
 
 namespace roci::services::link {
 
-/// Who sends or receives.
+/// Describes who sends or receives.
 struct Party {
   std::string service;
-  std::string robot{};  ///< Empty: the team's, the ground's or the world's.
-  bool ground = false;  ///< A console, or the world as it sends up what a scenario says.
+  std::string robot{};  ///< empty: the team's, the ground's or the world's
+  bool ground = false;  ///< a console, or the world as it sends up what a scenario says
 };
 
-/// The links of a scenario, the seed of its chance, and whom each service belongs to. It can be copied.
+/// Holds the links of a scenario, the seed of its chance, and the robot that each service belongs to. It can
+/// be copied.
 class LinkTable {
  public:
   struct Passage {
@@ -28,24 +29,24 @@ class LinkTable {
   };
 
   LinkTable() = default;
-  /// `robots`: by name of a service; one that is not in it has none.
+  /// Takes links, and `robots` by name of a service; one that is missing there has none.
   LinkTable(std::vector<Link> links, std::map<std::string, std::string> robots, std::uint64_t seed)
       : links_(std::move(links)), robots_(std::move(robots)), seed_(seed) {}
 
   bool empty() const { return links_.empty(); }
   const std::vector<Link>& links() const { return links_; }
   std::uint64_t seed() const { return seed_; }
-  /// Whether a service belongs to a robot of that name.
+  /// Returns whether a service belongs to a robot of that name.
   bool has_robot(const std::string& name) const;
-  /// The service with the robot that the mission gives it.
+  /// Returns the service with the robot that the mission gives it.
   Party party(const std::string& service) const;
 
-  /// The first link of the table that joins the two; empty if none does: what one sends then reaches the
-  /// other at once, as without links. A service that hears itself needs no link.
+  /// Returns the first link of the table that joins the two, or nothing if none does: what one sends then
+  /// reaches the other at once. A service that hears itself needs no link.
   std::optional<Passage> passage(const Party& sender, const Party& receiver) const;
-  /// The round trip between the two; empty if no link joins them.
+  /// Returns the round trip between the two, or nothing if no link joins them.
   std::optional<temporal::Duration> round_trip(const Party& one, const Party& other) const;
-  /// The services of the mission that a link joins to this one, with their round trips.
+  /// Returns the services of the mission that a link joins to this one, with their round trips.
   std::map<std::string, temporal::Duration> round_trips(const Party&) const;
 
  private:

@@ -1,4 +1,4 @@
-// What a link did not carry, by name.
+// A lost sample is one that a link did not carry.
 #pragma once
 
 #include <cstdint>
@@ -8,14 +8,14 @@
 
 namespace roci::services::link {
 
-/// What becomes of a sample that did not arrive at an attempt.
+/// Says what becomes of a sample that did not arrive at an attempt.
 enum class Fate {
-  repeated,    ///< The link sends it again.
-  superseded,  ///< A newer one of its instance is sent instead.
-  lost,        ///< The link does no more about it; docs/links.md says who does.
+  repeated,    ///< the link sends it again
+  superseded,  ///< a newer one of its instance is sent instead
+  lost,        ///< the link does no more about it; docs/links.md says who does
 };
 
-/// Is a sample that did not arrive at an attempt to send it, as its receiver's side of the link knows it.
+/// Names a sample that did not arrive at an attempt to send it, as the receiver's side of the link knows it.
 struct LostSample {
   temporal::Time at{};
   std::string link;  ///< by name
@@ -23,7 +23,7 @@ struct LostSample {
   std::string key;  ///< in words; empty for topics without a key
   std::string sender;
   std::uint32_t incarnation = 0;
-  std::uint64_t number = 0;  ///< of the sender's samples on the topic, from 1
+  std::uint64_t number = 0;  ///< place among the sender's samples on the topic, from 1
   std::uint32_t attempt = 1;
   Fate fate = Fate::lost;
   bool operator==(const LostSample&) const = default;

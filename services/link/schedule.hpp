@@ -1,4 +1,4 @@
-// When a link is open: its windows without its cuts.
+// The schedule of a link says when it is open: in its windows, without its cuts.
 #pragma once
 
 #include <optional>
@@ -9,20 +9,22 @@
 
 namespace roci::services::link {
 
-/// Lasts from the first time on, and ends before the second.
+/// Holds an interval that begins at the first time and ends before the second.
 using Interval = std::pair<temporal::Time, temporal::Time>;
 
+/// Answers when a link is open.
 class Schedule {
  public:
-  /// Always open.
+  /// Makes a schedule that is always open.
   Schedule();
-  /// Open in the windows, but for the cuts. Both are in order and do not overlap; no windows: always.
+  /// Makes a schedule that is open in the windows (always, if there are none) but for the cuts. Both are in
+  /// order and do not overlap.
   Schedule(std::vector<Interval> windows, const std::vector<Interval>& cuts);
 
   bool open(temporal::Time) const;
-  /// The first time from `from` on at which it is open; empty if it never is again.
+  /// Returns the first time from `from` on at which it is open, or nothing if it never is again.
   std::optional<temporal::Time> next_open(temporal::Time from) const;
-  /// The end of the interval that holds `time`; `time` itself where it is not open.
+  /// Returns the end of the open interval that holds the time, or the time itself where it is not open.
   temporal::Time closes(temporal::Time) const;
 
  private:

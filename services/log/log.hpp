@@ -5,7 +5,7 @@
 
 namespace roci::services::log {
 
-/// Each writes one line.
+/// Write one line each.
 void info(std::string_view);
 void warning(std::string_view);
 void error(std::string_view);

@@ -1,4 +1,5 @@
-// The codec of a generated type. Includes Fast CDR: for the few files that instantiate templates.
+// This is the codec of a generated type. It includes Fast CDR: only the few files that instantiate templates
+// include it.
 #pragma once
 
 #include <concepts>
@@ -7,7 +8,7 @@
 
 #include "services/node/endpoints.hpp"
 #include "services/node/key_words.hpp"
-#include "services/topics.hpp"
+#include "services/topics/topics.hpp"
 #include "services/transport/type_support.hpp"
 
 namespace roci::services::node {
@@ -17,14 +18,14 @@ concept HasHeader = requires(T value) {
   { value.header() } -> std::same_as<v1::SampleHeader&>;
 };
 
-/// Types without a header that name their run.
+/// Holds for types that name their run themselves.
 template <class T>
 concept OfRun = requires(T value, std::string run) {
   { std::as_const(value).run() } -> std::same_as<const std::string&>;
   value.run(run);
 };
 
-/// The service that a sample says it is from.
+/// Returns the service that a sample says it is from.
 template <class T>
 const std::string& sender_as(const void* value) {
   const T& sample = *static_cast<const T*>(value);
@@ -46,7 +47,8 @@ const std::string& sender_as(const void* value) {
   }
 }
 
-/// The service that a command or a request is for; empty: everyone who reads the topic.
+/// Returns the service that a command or a request is for, or an empty text if it is for everyone who reads
+/// the topic.
 template <class T>
 std::string addressee_as(const void* value) {
   const T& sample = *static_cast<const T*>(value);
@@ -59,6 +61,7 @@ std::string addressee_as(const void* value) {
   }
 }
 
+/// Decodes a payload as a T.
 template <class T>
 Decoded decode_as(std::span<const std::uint8_t> payload) {
   auto value = std::make_shared<T>();
@@ -66,6 +69,7 @@ Decoded decode_as(std::span<const std::uint8_t> payload) {
   return {std::move(value), whole};
 }
 
+/// Returns the serialized key of a sample, empty for types without one.
 template <class T>
 transport::Payload key_as(const void* value) {
   transport::Payload key;
@@ -74,6 +78,7 @@ transport::Payload key_as(const void* value) {
   return key;
 }
 
+/// Returns the bytes of a sample on the wire, without its run's name.
 template <class T>
 std::size_t size_as(const void* value) {
   T without_run = *static_cast<const T*>(value);
@@ -81,8 +86,9 @@ std::size_t size_as(const void* value) {
   return transport::serialize(without_run).size();
 }
 
+/// Describes a topic for the loop, with the codec of its type.
 template <class T>
-TopicSpec spec_of(const Topic<T>& topic) {
+TopicSpec spec_of(const topics::Topic<T>& topic) {
   Codec codec;
   codec.type = transport::describe_type<T>(topic.type_name);
   codec.decode = &decode_as<T>;

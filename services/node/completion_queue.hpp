@@ -1,4 +1,5 @@
-// The works that threads of a service have under way, and their results until the loop runs them.
+// The completion queue has the work that threads of a service have under way, and its results until the loop
+// runs them.
 #pragma once
 
 #include <cstdint>
@@ -8,16 +9,17 @@
 
 namespace roci::services::node {
 
+/// Says in which order results run.
 enum class ResultOrder { as_begun, as_finished };
 
+/// Runs each result once, on the loop, in the chosen order.
 class CompletionQueue {
  public:
   explicit CompletionQueue(ResultOrder order) : order_(order) {}
 
   std::uint64_t begin();
   void finish(std::uint64_t work, std::function<void()> run);
-  /// Runs the results whose turn has come. Throws std::logic_error for the result of a work that was not
-  /// begun.
+  /// Runs the results whose turn has come. Throws std::logic_error for a result of work that was not begun.
   void run_finished();
   bool outstanding() const { return !begun_.empty(); }
 

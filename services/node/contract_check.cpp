@@ -59,16 +59,16 @@ bool ContractCheck::agrees(Peer& peer, const std::string& type) const {
   return peer.same[type] = !own.empty() && peer.announced && peer.announced->hash_of(type) == own;
 }
 
-ContractCheck::Verdict ContractCheck::judge(const ContractTopic& topic, const transport::Guid& remote) {
+ContractCheck::Agreement ContractCheck::judge(const ContractTopic& topic, const transport::Guid& remote) {
   Peer* peer = find_peer(remote);
-  if (peer == nullptr) return Verdict::unknown;
-  if (agrees(*peer, topic.type)) return Verdict::same;
+  if (peer == nullptr) return Agreement::unknown;
+  if (agrees(*peer, topic.type)) return Agreement::same;
   if (peer->told.insert(topic.name).second) {
     const transport::Announcement other = peer->announced.value_or(transport::Announcement{});
     mismatches_.push_back({topic.name, topic.type, peer->name, own_.build, own_.hash_of(topic.type),
                            other.build, other.hash_of(topic.type)});
   }
-  return Verdict::different;
+  return Agreement::different;
 }
 
 void ContractCheck::met(const ContractTopic& topic, const transport::Guid& remote) {
@@ -83,7 +83,7 @@ std::vector<ContractMismatch> ContractCheck::take_mismatches() {
     fresh = std::exchange(met_, {});
   }
   for (const Met& one : fresh) {
-    if (judge(one.topic, one.remote) == Verdict::unknown) met(one.topic, one.remote);
+    if (judge(one.topic, one.remote) == Agreement::unknown) met(one.topic, one.remote);
   }
   return std::exchange(mismatches_, {});
 }

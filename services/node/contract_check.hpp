@@ -1,4 +1,4 @@
-// Whether the types of a remote participant are ours: its announced hashes compared with our own, once per participant.
+// The contract check compares the type hashes that a remote participant announces with our own, once per participant.
 #pragma once
 
 #include <array>
@@ -18,47 +18,49 @@
 
 namespace roci::services::node {
 
-/// A topic on which this node and a participant do not understand each other. Hashes are empty where none is announced.
+/// Describes a topic on which this node and a participant do not understand each other. Hashes are empty where none is
+/// announced.
 struct ContractMismatch {
   std::string topic;
   std::string type;
-  std::string participant;  ///< Its name, or the start of its GUID in hexadecimal digits.
+  std::string participant;  ///< its name, or the start of its GUID in hexadecimal digits
   std::string own_build;
   std::string own_hash;
   std::string other_build;
   std::string other_hash;
 };
 
-/// One sentence for people, with the remedy.
+/// Returns one sentence for people, with the remedy.
 std::string to_text(const ContractMismatch&);
 
-/// A topic as the contract sees it.
+/// Names a topic as the contract sees it.
 struct ContractTopic {
   std::string name;
-  std::string type;  ///< E.g. "roci::v1::Goal".
+  std::string type;  ///< e.g. "roci::v1::Goal"
   auto operator<=>(const ContractTopic&) const = default;
 };
 
-/// Of many participants the newest are remembered: one that was forgotten and goes on is judged, and told of, anew.
+/// Judges participants by their announcements. Of many it remembers the newest: one that was forgotten and goes on
+/// is judged, and reported, anew.
 class ContractCheck {
  public:
   using Lookup = std::function<std::optional<transport::Participant>(const transport::Guid&)>;
 
-  enum class Verdict {
+  enum class Agreement {
     same,       ///< The participant announced our hash of the type.
     different,  ///< It announced another one, or none.
     unknown,    ///< It has not been discovered yet: ask again.
   };
 
-  /// `own`: what this node's participant announces (announcement.hpp).
+  /// Compares with `own`, which this node's participant announces (announcement.hpp).
   ContractCheck(std::string_view own, Lookup);
 
   /// The loop's thread asks this of the writer of each sample. The first `different` of a participant and topic is a
   /// mismatch to be told.
-  Verdict judge(const ContractTopic&, const transport::Guid& remote);
+  Agreement judge(const ContractTopic&, const transport::Guid& remote);
 
-  /// Any thread says that a writer or a reader of another participant was matched on a topic: a mismatch is told
-  /// although no sample may ever come.
+  /// Notes, on any thread, that a writer or reader of another participant was matched on a topic: a mismatch is
+  /// reported even if no sample ever comes.
   void met(const ContractTopic&, const transport::Guid& remote);
 
   /// Judges what was met, and removes and returns the mismatches that are new since the last call.

@@ -28,12 +28,12 @@ ContractGate::ContractGate(ContractCheck& check, std::function<void(Arrival&&)> 
 void ContractGate::arrive(Arrival&& arrival) {
   if (!held_.empty()) retry_held();
   switch (check_.judge(arrival.topic->contract, arrival.sample.writer)) {
-    case ContractCheck::Verdict::same:
+    case ContractCheck::Agreement::same:
       return pass_(std::move(arrival));
-    case ContractCheck::Verdict::different:
+    case ContractCheck::Agreement::different:
       ++refused_;
       return;
-    case ContractCheck::Verdict::unknown:
+    case ContractCheck::Agreement::unknown:
       held_bytes_ += arrival.sample.payload.size();
       held_.push_back(std::move(arrival));
       while (held_.size() > kHeldBack || held_bytes_ > bounds::kHeldBytes) {
@@ -47,11 +47,11 @@ void ContractGate::arrive(Arrival&& arrival) {
 void ContractGate::retry_held() {
   held_bytes_ = 0;
   for (Arrival& arrival : std::exchange(held_, {})) {
-    const auto verdict = check_.judge(arrival.topic->contract, arrival.sample.writer);
-    if (verdict == ContractCheck::Verdict::unknown) {
+    const auto agreement = check_.judge(arrival.topic->contract, arrival.sample.writer);
+    if (agreement == ContractCheck::Agreement::unknown) {
       held_bytes_ += arrival.sample.payload.size();
       held_.push_back(std::move(arrival));
-    } else if (verdict == ContractCheck::Verdict::same) {
+    } else if (agreement == ContractCheck::Agreement::same) {
       pass_(std::move(arrival));
     } else {
       ++refused_;

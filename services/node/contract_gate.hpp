@@ -1,5 +1,4 @@
-// The gate before a node's handlers: no sample passes whose type means something else at its writer, and who does not
-// understand this node is told of, once per participant and topic, in the log and by the event contract.mismatch.
+// The contract gate stands before a node's handlers.
 #pragma once
 
 #include <cstdint>
@@ -14,9 +13,12 @@
 
 namespace roci::services::node {
 
+/// Passes no sample whose type means something else at its writer, and reports each participant that does not
+/// understand this node, once per topic, in the log and by the event contract.mismatch.
 class ContractGate {
  public:
-  /// `pass` gets the samples that may be read. `prepare` opens the topic of events, `tell` writes one.
+  /// Calls `pass` with the samples that may be read, `prepare` to open the topic of events, and `tell` to
+  /// write one.
   ContractGate(ContractCheck&, std::function<void(Arrival&&)> pass, std::function<void()> prepare,
                std::function<void(const v1::Event&)> tell);
 
@@ -24,23 +26,23 @@ class ContractGate {
   /// writer keep their order.
   void arrive(Arrival&&);
 
-  /// Is called in each turn of the loop: looks again at what is held back, and tells of new mismatches.
+  /// Judges again what is held back, and reports new mismatches; it is called in each turn of the loop.
   void turn(clock::WallTime now);
 
-  /// Tells operators of something else that was found out about another participant.
+  /// Reports to operators something else that was found out about another participant.
   void tell_later(v1::Event event, clock::WallTime now);
-  /// The same without delay, for a process that ends.
+  /// Reports without delay, for a process that ends.
   void tell_now(const v1::Event&);
 
-  /// Samples that were refused so far, or held back in vain.
+  /// Returns how many samples were refused so far, or held back in vain.
   std::uint64_t refused() const { return refused_; }
 
-  /// So many samples of unknown participants are held back, of kHeldBytes together (bounds/limits.hpp); more push out
-  /// the oldest.
+  /// Bounds the samples of unknown participants that are held back, beside kHeldBytes (bounds/limits.hpp); more push
+  /// out the oldest.
   static constexpr std::size_t kHeldBack = 1024;
 
-  /// The event is written so much wall time after the mismatch was found (and logged): by then the participants that
-  /// started together have found each other, and readers of events miss none.
+  /// Delays the event, in wall time, after the mismatch was found (and logged): by then participants that started
+  /// together have found each other, and readers of events miss none.
   static constexpr double kTellAfterS = 1.5;
 
  private:

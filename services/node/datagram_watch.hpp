@@ -1,6 +1,4 @@
-// Tells operators of the datagrams that a node's transport refuses: by the event datagram.refused, for each reason the
-// first time and each time that the count has grown tenfold,
-// so that whoever sends a million bad ones brings about seven.
+// The datagram watch reports the datagrams that a node's transport refuses.
 #pragma once
 
 #include <cstdint>
@@ -15,13 +13,17 @@
 
 namespace roci::services::node {
 
+/// Reports refused datagrams by the event datagram.refused, for each reason the first time and each time that
+/// the count has grown tenfold: a million bad datagrams cause about seven events.
 class DatagramWatch {
  public:
-  /// `transport` outlives this; null: nobody guards it, and nothing is told.
+  /// Watches a `transport`, which must outlive this object; if it is null there is no guard, and nothing is
+  /// reported.
   DatagramWatch(std::string node, const transport::RefusesDatagrams* transport)
       : node_(std::move(node)), transport_(transport) {}
 
-  /// Is called in each turn of the loop, and asks the transport once in kPeriodS of wall time. Returns what is new.
+  /// Asks the transport once in kPeriodS of wall time, and returns what is new; it is called in each turn of the
+  /// loop.
   std::vector<v1::Event> turn(clock::WallTime now);
 
   static constexpr double kPeriodS = 1;
@@ -33,7 +35,7 @@ class DatagramWatch {
   const transport::RefusesDatagrams* const transport_;
   std::optional<clock::WallTime> asked_;
   std::map<std::string, std::uint64_t>
-      due_;  // the count that is told next, by reason; there are as many as verdicts
+      due_;  // the count that is told next, by reason; there are as many as a guard has
 };
 
 }  // namespace roci::services::node

@@ -115,14 +115,14 @@ void TopicWriter::begin_micro_step() {
 
 Endpoints::Endpoints(const NodeOptions& options, const RunIdentity& run, TopicWriter::Now now,
                      transport::Transport& transport, Inbox& inbox, ContractCheck& contract,
-                     Refusals& refusals)
+                     RejectedSamples& rejected)
     : options_(options),
       run_(run),
       now_(std::move(now)),
       transport_(transport),
       inbox_(inbox),
       contract_(contract),
-      refusals_(refusals) {}
+      rejected_(rejected) {}
 
 Endpoints::~Endpoints() { in_.clear(); }  // no callback may find a writer gone
 
@@ -168,10 +168,10 @@ void Endpoints::take(TopicReader& reader, transport::Sample&& sample) {
   const transport::Guid writer = sample.writer;
   const std::size_t largest = transport::bytes(reader.topic.limit);
   if (sample.payload.size() > largest + transport::kPayloadPadding)
-    return refusals_.note(reader.topic.name, Refusal::too_large, writer);
+    return rejected_.note(reader.topic.name, SampleRejection::too_large, writer);
   const std::size_t room = std::max(bounds::kInboxBytes, 2 * largest);
   if (!inbox_.push(Arrival{&reader, std::move(sample)}, room))
-    refusals_.note(reader.topic.name, Refusal::queue_full, writer);
+    rejected_.note(reader.topic.name, SampleRejection::queue_full, writer);
 }
 
 TopicReader* Endpoints::find_in(const std::string& topic) {

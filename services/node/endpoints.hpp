@@ -1,4 +1,5 @@
-// A node's topics without their types: what is written (TopicWriter) and what is read (TopicReader).
+// These are a node's topics without their types: what is written (TopicWriter) and what is read
+// (TopicReader).
 #pragma once
 
 #include <cstdint>
@@ -18,7 +19,7 @@
 #include "services/node/finished_instances.hpp"
 #include "services/node/inbox.hpp"
 #include "services/node/node_options.hpp"
-#include "services/node/refusals.hpp"
+#include "services/node/rejected_samples.hpp"
 #include "services/node/run_identity.hpp"
 #include "services/transport/forgets_instances.hpp"
 #include "services/transport/payload_limit.hpp"
@@ -27,28 +28,29 @@
 
 namespace roci::services::node {
 
-/// A payload as a value of its type; what came before the damage, if it is not whole.
+/// Holds a payload as a value of its type, or what came before the damage if it is not whole.
 struct Decoded {
   std::shared_ptr<const void> value;
   bool whole = false;
 };
 
-/// The loop must know this of a type.
+/// Holds what the loop must know of a type.
 struct Codec {
   transport::TypeDescription type;
   Decoded (*decode)(std::span<const std::uint8_t>) = nullptr;
-  const v1::SampleHeader& (*header)(const void* value) = nullptr;  ///< Null for types without one.
+  const v1::SampleHeader& (*header)(const void* value) = nullptr;  ///< null for types without one
   const std::string& (*run)(const void* value) = nullptr;          ///< null for types that name no run
-  const std::string& (*sender)(const void* value) = nullptr;  ///< The service that says it, by its own word.
-  transport::Payload (*key)(const void* value) = nullptr;     ///< Empty for types without a key.
-  /// The key for people; empty for types without one.
+  const std::string& (*sender)(const void* value) = nullptr;       ///< service that says it, by its own word
+  transport::Payload (*key)(const void* value) = nullptr;          ///< empty for types without a key
+  /// Returns the key in words, or an empty text for types without one.
   std::string (*key_words)(const void* value) = nullptr;
-  std::string (*addressee)(const void* value) = nullptr;  ///< The service that it is for; empty: everyone.
-  /// In bytes as on the wire, but without the run's name, so that it is the same in every run. Null for types
-  /// without a header.
+  std::string (*addressee)(const void* value) = nullptr;  ///< service that it is for; empty: everyone
+  /// Returns the bytes on the wire, but without the run's name, so that the size is the same in every run. It
+  /// is null for types without a header.
   std::size_t (*size)(const void* value) = nullptr;
 };
 
+/// Describes a topic as the loop needs it, without its type.
 struct TopicSpec {
   std::string name;
   transport::Qos qos = transport::Qos::state;
@@ -58,13 +60,14 @@ struct TopicSpec {
   transport::PayloadLimit limit = transport::PayloadLimit::journal;
 };
 
-/// The name under which the simulated clock counts the samples that a service of `robot` writes on the topic.
+/// Returns the name under which the simulated clock counts the samples that a service of `robot` writes on
+/// the topic.
 std::string stream_topic(const TopicSpec&, const std::string& robot);
 
 /// Writes all samples of one node on one topic.
 class TopicWriter {
  public:
-  using Now = std::function<temporal::Time()>;  ///< Mission time.
+  using Now = std::function<temporal::Time()>;  ///< mission time
 
   TopicWriter(const NodeOptions&, const RunIdentity&, Now, const TopicSpec&, transport::Transport&,
               transport::WriterEvents);
@@ -72,12 +75,13 @@ class TopicWriter {
   /// Numbers the next sample; the number counts once write() has succeeded.
   void stamp(v1::SampleHeader&) const;
   bool write(const transport::Payload&);
-  /// Says that the instance has its last word. The newest of these stay for late joiners; older ones are forgotten if
-  /// the vendor can, and nobody is told. Of topics whose past nobody is given each word is the last.
-  /// False: the key cannot be read.
+  /// Finishes the instance, after its last sample. The newest finished ones stay for late joiners; older ones are
+  /// forgotten silently if the vendor can. On topics that give nobody their past every sample is the last. Returns
+  /// false if the key cannot be read.
   bool finish(const transport::Payload&);
 
-  /// What a micro-step has no room for is written again in the next by whoever writes here, so nobody is told.
+  /// Turns off reports of samples that find no room in a micro-step, since their writer writes them again in
+  /// the next one.
   void refuse_quietly() { quiet_ = true; }
 
   const RunIdentity& run() const { return run_; }
@@ -89,7 +93,7 @@ class TopicWriter {
 
  private:
   using Key = FinishedInstances::Key;
-  /// Empty for types without a key; nothing if it cannot be read.
+  /// Returns the key, empty for types without one, or nothing if it cannot be read.
   std::optional<Key> key_of(const transport::Payload&) const;
   bool barriered() const;
   bool within_limit(const Key&);
@@ -107,6 +111,7 @@ class TopicWriter {
   bool quiet_ = false;
 };
 
+/// Holds what a node does with the samples of one topic.
 struct TopicReader {
   TopicSpec topic;
   ContractTopic contract;
@@ -115,11 +120,12 @@ struct TopicReader {
   std::unique_ptr<transport::Reader> reader;
 };
 
-/// What is larger than its topic allows, or finds the inbox full, goes no further than the vendor's thread.
+/// Holds the endpoints of one node. A sample that is larger than its topic allows, or finds the inbox full,
+/// is dropped on the vendor's thread.
 class Endpoints {
  public:
   Endpoints(const NodeOptions&, const RunIdentity&, TopicWriter::Now, transport::Transport&, Inbox&,
-            ContractCheck&, Refusals&);
+            ContractCheck&, RejectedSamples&);
   ~Endpoints();
 
   /// Return the node's one writer or reader of a topic. They throw std::logic_error if the topic is known
@@ -128,7 +134,7 @@ class Endpoints {
   TopicReader& in(const TopicSpec&);
   TopicReader* find_in(const std::string& topic);
 
-  std::vector<TopicSpec> clocked_inputs() const;  ///< They are sorted by name.
+  std::vector<TopicSpec> clocked_inputs() const;  ///< sorted by name
   /// Returns the streams of a topic that this node hears (clock/stream_topic.hpp), as the clock names them.
   std::vector<std::string> heard_streams(const TopicSpec&) const;
   /// Returns the clocked streams with samples that it has not yet reported.
@@ -144,7 +150,7 @@ class Endpoints {
   transport::Transport& transport_;
   Inbox& inbox_;
   ContractCheck& contract_;
-  Refusals& refusals_;
+  RejectedSamples& rejected_;
   std::map<std::string, std::unique_ptr<TopicWriter>> out_;
   std::map<std::string, std::unique_ptr<TopicReader>> in_;
   std::map<std::string, std::uint64_t> reported_;

@@ -1,5 +1,5 @@
-// The instances of one keyed topic that have their last word, and when their writer forgets them: a writer that runs
-// for years keeps the last words of the newest ones alone. Pure.
+// Finished instances of a keyed topic have had their last sample: a writer that runs for years keeps those of the
+// newest instances alone. This is pure.
 #pragma once
 
 #include <cstddef>
@@ -13,12 +13,12 @@
 
 namespace roci::services::node {
 
-/// Guarantees: the newest `kept` finished instances stay, so the newest sample of the stream always does; and none goes
-/// before `rest` turns of its writer have passed since its last sample. Under the simulated clock two turns are enough:
-/// a receiver has taken the samples of micro-step k before those of k + 2 can be written.
+/// Guarantees that the newest `kept` finished instances stay, and with them the newest sample of the stream, and that
+/// none goes before `rest` turns of its writer have passed since its last sample. Under the simulated clock two turns
+/// are enough: a receiver has taken the samples of micro-step k before those of k + 2 can be written.
 class FinishedInstances {
  public:
-  using Key = std::string;  ///< The serialized key.
+  using Key = std::string;  ///< the serialized key
 
   FinishedInstances(std::size_t kept, std::uint64_t rest) : kept_(kept), rest_(rest) {}
 

@@ -40,6 +40,9 @@ void Inbox::stop() {
   filled_.notify_one();
 }
 
+// Nobody who sets the system clock moves a wait (docs/adr/0018).
+static_assert(clock::WallClock::is_steady);
+
 Inbox::Batch Inbox::take(clock::WallTime deadline) {
   std::unique_lock lock(mutex_);
   filled_.wait_until(lock, deadline, [this] { return news_; });

@@ -1,4 +1,5 @@
-// Where other threads leave things for the loop: samples from vendor threads, results of workers, wake-ups.
+// The inbox is where other threads leave things for the loop: samples from vendor threads, results of
+// workers, wake-ups.
 #pragma once
 
 #include <condition_variable>
@@ -16,27 +17,30 @@ namespace roci::services::node {
 
 struct TopicReader;
 
+/// Holds a sample that has arrived on a topic.
 struct Arrival {
   TopicReader* topic = nullptr;
   transport::Sample sample;
 };
 
+/// Holds the result of a worker, which the loop runs.
 struct WorkResult {
   std::uint64_t work = 0;
   std::function<void()> run;
 };
 
+/// Hands what other threads leave to the loop, in their order. Any thread may call it.
 class Inbox {
  public:
   struct Batch {
     std::vector<Arrival> arrivals;
     std::vector<WorkResult> results;
-    bool matched = false;  ///< Some endpoint's matches have changed.
-    bool stop = false;     ///< It stays true once asked for.
+    bool matched = false;  ///< some endpoint's matches have changed
+    bool stop = false;     ///< stays true once asked for
   };
 
-  /// False, and the sample is gone, when kInboxSamples of its topic wait already, or more than `room` bytes would: the
-  /// loop is slower than its peers, or somebody floods the topic. Other topics are not touched by it.
+  /// Adds a sample. Returns false, and drops it, when kInboxSamples of its topic wait already, or more than `room`
+  /// bytes would: the loop is slower than its peers, or somebody floods the topic. Other topics are not affected.
   bool push(Arrival, std::size_t room);
   void push(WorkResult);
   void matched();

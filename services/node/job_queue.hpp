@@ -1,4 +1,4 @@
-// A thread beside the event loop that does one job after the other.
+// The job queue is a thread beside the event loop that does one job after the other.
 #pragma once
 #include <condition_variable>
 #include <deque>

@@ -1,4 +1,4 @@
-// The key of a sample in words, for records that people read.
+// This file puts the key of a sample in words, for records that people read.
 #pragma once
 
 #include <initializer_list>
@@ -12,7 +12,7 @@ inline std::string words_of(std::initializer_list<std::string> parts) {
   return out;
 }
 
-/// The members that are the key of a type of the contract, in its order, with a space between; empty for a type that
+/// Returns the key members of a contract type in their order, separated by blanks, or an empty text for a type that
 /// has none of those keys.
 template <class T>
 std::string key_words(const T& sample) {

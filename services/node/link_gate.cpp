@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "services/node/endpoints.hpp"
-#include "services/topics.hpp"
+#include "services/topics/topics.hpp"
 
 namespace roci::services::node {
 namespace {
@@ -57,6 +57,10 @@ link::Party LinkGate::sender_of(const TopicReader& reader, const void* value) co
   link::Party out{header.sender(), header.robot()};
   if (!out.robot.empty()) return out;
   out.ground = header.incarnation() == 0 || sent_up(reader.topic.name);
+  if (reader.topic.name == topics::goal.name && header.incarnation() != 0) {
+    const std::string& issuer = static_cast<const v1::Goal*>(value)->issuer();
+    if (options_->links.has_robot(issuer)) return {header.sender(), issuer};
+  }
   if (reader.topic.name == topics::observation.name) {
     const std::string& timeline = static_cast<const v1::Observation*>(value)->timeline();
     const std::string robot = timeline.substr(0, timeline.find('.'));

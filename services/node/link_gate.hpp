@@ -1,4 +1,5 @@
-// What comes over the links of a scenario into one node: it is handled at once, later, or never.
+// The link gate decides whether what comes over the links of a scenario into one node is handled at once,
+// later, or never.
 #pragma once
 
 #include <map>
@@ -18,14 +19,14 @@ namespace roci::services::node {
 
 struct TopicReader;
 
-/// So many lost samples are remembered by name; what is lost beyond is counted alone.
+/// Bounds the lost samples that are remembered by name; further ones are only counted.
 inline constexpr std::size_t kNamedLosses = 65'536;
 
-/// The links lie between the barrier and the handlers, so that every sample has been counted by the clock
-/// before it is lost or delayed. A node without links admits everything.
+/// Applies the links between the barrier and the handlers, so that the clock has counted every sample before
+/// it is lost or delayed. A node without links admits everything.
 class LinkGate {
  public:
-  /// The options outlive this.
+  /// The options must outlive the gate.
   explicit LinkGate(const NodeOptions& options) : options_(&options) {}
 
   /// Takes a clocked sample. Returns true if it is to be handled now; else it is lost, or take() gives it
@@ -39,17 +40,17 @@ class LinkGate {
   /// Removes and returns what has arrived by now, in the order of arrival; of two that arrive at one time the
   /// link that stands first in the scenario comes first, then what was sent first.
   std::vector<Due> take(temporal::Time now);
-  /// When take() is to be called next; empty: not before another sample comes.
+  /// Returns when take() is to be called next, or nothing if not before another sample comes.
   std::optional<temporal::Time> next() const;
 
-  /// The light time to a service and back; empty if no link joins it. An empty name stands for anybody: the
-  /// longest of all.
+  /// Returns the light time to a service and back, or nothing if no link joins it. An empty name stands for
+  /// anybody, and gives the longest of all.
   std::optional<temporal::Duration> round_trip(const std::string& service) const;
-  /// The same for every service that a link joins.
+  /// Returns the same for every service that a link joins.
   std::map<std::string, temporal::Duration> round_trips() const;
-  /// Go by name of the link.
+  /// Returns the counts by name of the link.
   std::map<std::string, link::Counts> counts() const;
-  /// What was lost, in the order in which it became known here.
+  /// Returns what was lost, in the order in which it became known here.
   const std::vector<link::LostSample>& lost() const { return lost_; }
 
  private:

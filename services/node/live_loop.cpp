@@ -78,7 +78,7 @@ class LiveLoop : public Loop {
     if (!observer_) heartbeat_.emplace(node_.make_heartbeat_sender());
     subscribe(node_, topics::heartbeat, [this](const v1::Heartbeat& beat) {
       if (!peers_.heartbeat(beat, clock::wall_now()))
-        node_.refusals.note(topics::heartbeat.name, Refusal::no_room);
+        node_.rejected.note(topics::heartbeat.name, SampleRejection::no_room);
       node_.hear_namesake(beat);
     });
     node_.endpoints.find_in(topics::heartbeat.name)

@@ -1,4 +1,4 @@
-/// Events that a node itself tells operators of.
+// This file makes the events by which a node itself informs operators.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace roci::services::node {
 
-/// An event with its properties, each a name and a value.
+/// Makes an event with its properties, each a name and a value.
 v1::Event make_event(v1::Severity severity, const std::string& code, const std::string& text,
                      const std::vector<std::pair<std::string, std::string>>& properties = {});
 

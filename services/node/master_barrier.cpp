@@ -60,15 +60,15 @@ class MasterBarrier : public Barrier {
         pace_(node.options.master.pace, clock::wall_now()),
         hold_(clock::wall_seconds(node.options.master.restart_hold_s)) {
     subscribe(node, topics::clock_ready, [this](const v1::ClockReady& ready) {
-      if (!master_.ready(ready)) node_.refusals.note(topics::clock_ready.name, Refusal::no_room);
+      if (!master_.ready(ready)) node_.rejected.note(topics::clock_ready.name, SampleRejection::no_room);
     });
     subscribe(node, topics::clock_done, [this](const v1::ClockDone& done) {
       peers_.seen(done.service(), done.incarnation(), clock::wall_now());
-      if (!master_.done(done)) node_.refusals.note(topics::clock_done.name, Refusal::no_room);
+      if (!master_.done(done)) node_.rejected.note(topics::clock_done.name, SampleRejection::no_room);
     });
     subscribe(node, topics::heartbeat, [this](const v1::Heartbeat& beat) {
       if (beat.service() != node_.options.name && !peers_.heartbeat(beat, clock::wall_now()))
-        node_.refusals.note(topics::heartbeat.name, Refusal::no_room);
+        node_.rejected.note(topics::heartbeat.name, SampleRejection::no_room);
       node_.hear_namesake(beat);
     });
     node.endpoints.find_in(topics::heartbeat.name)

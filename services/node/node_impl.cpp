@@ -14,15 +14,15 @@ NodeImpl::NodeImpl(NodeOptions node_options, std::unique_ptr<transport::Transpor
       transport(std::move(node_transport)),
       contract(transport->announcement(),
                [this](const transport::Guid& guid) { return transport->participant_of(guid); }),
-      refusals(
+      rejected(
           options.name, [this](const transport::Guid& guid) { return transport->participant_of(guid); },
           [this] { advertise(*this, topics::event); },
           [this](const v1::Event& event) { write(advertise(*this, topics::event), event); },
-          simulated() ? 0 : Refusals::kTellAfterS),
+          simulated() ? 0 : RejectedSamples::kTellAfterS),
       datagrams(options.name, dynamic_cast<const transport::RefusesDatagrams*>(transport.get())),
       work(simulated() ? ResultOrder::as_begun : ResultOrder::as_finished),
       endpoints(
-          options, run, [this] { return now(); }, *transport, inbox, contract, refusals),
+          options, run, [this] { return now(); }, *transport, inbox, contract, rejected),
       links(options),
       gate(
           contract, [this](Arrival&& arrival) { read(std::move(arrival)); },
@@ -61,7 +61,7 @@ void NodeImpl::read(Arrival&& arrival) {
   const std::shared_ptr<const void> value = std::move(decoded.value);
   const auto sender_of = input.topic.codec.sender;
   if (sender_of != nullptr && !transport->speaks_as(arrival.sample.writer, sender_of(value.get())))
-    return refusals.note(input.topic.name, Refusal::another_name, arrival.sample.writer);
+    return rejected.note(input.topic.name, SampleRejection::another_name, arrival.sample.writer);
   const auto run_of = input.topic.codec.run;
   if (run_of != nullptr && !run.obeys(run_of(value.get()), input.topic.name)) {
     for (const auto& [foreign, topic] : run.take_news())
@@ -78,7 +78,7 @@ void NodeImpl::read(Arrival&& arrival) {
 // The header comes early in a sample. Where it could be read the simulated clock counts the sample, without a value:
 // else this node would wait for it for ever.
 void NodeImpl::refuse_malformed(TopicReader& input, const Decoded& decoded, const transport::Guid& writer) {
-  refusals.note(input.topic.name, Refusal::malformed, writer);
+  rejected.note(input.topic.name, SampleRejection::malformed, writer);
   const Codec& codec = input.topic.codec;
   if (!simulated() || input.topic.clocking == transport::Clocking::wall) return;
   const v1::SampleHeader& header = codec.header(decoded.value.get());
@@ -104,7 +104,7 @@ void NodeImpl::announce(const health::PeerChange& change) {
 void NodeImpl::announce_turn() {
   const clock::WallTime now = clock::wall_now();
   gate.turn(now);
-  refusals.turn(now);
+  rejected.turn(now);
   // An observer hears of what the services of the run refuse, and says nothing itself.
   if (options.clock != clock::ClockMode::observer)
     for (v1::Event& event : datagrams.turn(now)) gate.tell_later(std::move(event), now);
@@ -137,10 +137,10 @@ health::HeartbeatSender NodeImpl::make_heartbeat_sender() {
 
 void NodeImpl::hear_namesake(const v1::Heartbeat& beat) {
   if (!namesakes_) return;
-  const auto verdict = namesakes_->hear(beat, clock::wall_now());
-  if (verdict == health::NamesakeWatch::Verdict::nothing) return;
+  const auto precedence = namesakes_->hear(beat, clock::wall_now());
+  if (precedence == health::NamesakeWatch::Precedence::nothing) return;
   const std::string other = health::process_text(beat);
-  if (verdict == health::NamesakeWatch::Verdict::yields) {
+  if (precedence == health::NamesakeWatch::Precedence::yields) {
     const std::string text =
         "this run has another " + other + ", which goes on in this name; this process ends";
     gate.tell_now(make_event(v1::SEVERITY_WARNING, "service.doubled", text));

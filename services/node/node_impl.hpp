@@ -1,4 +1,5 @@
-// What a node consists of. The loop (live or simulated) decides when handlers run; the rest is shared.
+// This file has what a node consists of. The loop (live or simulated) decides when handlers run; the rest is
+// shared.
 #pragma once
 
 #include <functional>
@@ -23,12 +24,13 @@
 #include "services/node/link_gate.hpp"
 #include "services/node/loop.hpp"
 #include "services/node/node_options.hpp"
-#include "services/node/refusals.hpp"
+#include "services/node/rejected_samples.hpp"
 #include "services/node/timer_queue.hpp"
 #include "services/transport/transport.hpp"
 
 namespace roci::services::node {
 
+/// Composes a node of its parts, and is known to them.
 class NodeImpl {
  public:
   NodeImpl(NodeOptions, std::unique_ptr<transport::Transport>);
@@ -38,18 +40,19 @@ class NodeImpl {
   TimerQueue::Id after(temporal::Duration, std::function<void()> fire);
   health::PeerState peer(std::string_view service) const;
 
-  /// Subscribing under the simulated clock is over once the loop runs: throws std::logic_error.
+  /// Subscribes to a topic. Throws std::logic_error under the simulated clock once the loop runs.
   TopicReader& subscribe(const TopicSpec&);
 
-  /// Takes what has arrived; what the contract lets pass is decoded, and handled or handed to the loop if its topic is
-  /// clocked.
+  /// Takes what has arrived. What the contract lets pass is decoded, and then handled, or handed to the loop if its
+  /// topic is clocked.
   void receive(Arrival&&);
   static void handle(TopicReader&, const void* value);
   void announce(const health::PeerChange&);
   void announce_match();
   void announce_turn();
 
-  /// Keeps one T for a floor above for as long as the node lives; makes it when it is first asked for.
+  /// Returns the one T that the node keeps for a floor above as long as it lives; it is made at the first
+  /// call.
   template <class T>
   T& attachment() {
     std::shared_ptr<void>& kept = attachments[typeid(T)];
@@ -67,7 +70,7 @@ class NodeImpl {
   RunIdentity run;
   std::unique_ptr<transport::Transport> transport;
   ContractCheck contract;
-  Refusals refusals;
+  RejectedSamples rejected;
   DatagramWatch datagrams;
   Inbox inbox;
   TimerQueue timers;
@@ -75,13 +78,13 @@ class NodeImpl {
   std::vector<std::function<void(const health::PeerChange&)>> on_peer_change;
   std::vector<std::function<void()>> on_match;
   std::vector<std::function<void()>> on_turn;
-  /// They outlive the endpoints, whose handlers use them.
+  /// Holds the attachments; they outlive the endpoints, whose handlers use them.
   std::map<std::type_index, std::shared_ptr<void>> attachments;
   Endpoints endpoints;
   LinkGate links;
   ContractGate gate;
   bool running = false;
-  bool degraded = false;  ///< Heartbeats say so, live.
+  bool degraded = false;  ///< live: heartbeats say so
   std::unique_ptr<Loop> loop;
 
  private:

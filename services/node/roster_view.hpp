@@ -1,4 +1,4 @@
-// The roster as one simulated node has surfaced it to its handlers. Pure.
+// The roster view is the roster as one simulated node has shown it to its handlers. It is pure.
 #pragma once
 
 #include <cstdint>
@@ -14,6 +14,7 @@ namespace roci::services::node {
 
 bool contains(const std::vector<v1::RosterEntry>&, std::string_view service, std::uint32_t incarnation);
 
+/// Turns the rosters of clock steps into changes, each reported once.
 class RosterView {
  public:
   /// Returns what has changed since the last step for a node of name `self`: deaths first, each by name.

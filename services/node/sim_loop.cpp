@@ -35,10 +35,10 @@ class SimLoop : public Loop {
                     std::shared_ptr<const void> value) override {
     if (header.incarnation() == 0) {
       if (outside_.size() >= bounds::kOutsideInputs)
-        return node_.refusals.note(input.topic.name, Refusal::queue_full);
+        return node_.rejected.note(input.topic.name, SampleRejection::queue_full);
       outside_.push_back({&input, std::move(value)});
     } else if (!held_back_.add(stream_topic(input.topic, header.robot()), header, std::move(value))) {
-      node_.refusals.note(input.topic.name, Refusal::no_room);
+      node_.rejected.note(input.topic.name, SampleRejection::no_room);
     }
   }
 

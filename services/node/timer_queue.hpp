@@ -1,4 +1,4 @@
-// Timers of one node, in the order (time, creation).
+// The timer queue has the timers of one node.
 #pragma once
 
 #include <cstdint>
@@ -12,6 +12,7 @@
 
 namespace roci::services::node {
 
+/// Fires timers in the order (time, creation).
 class TimerQueue {
  public:
   using Id = std::uint64_t;

@@ -9,12 +9,12 @@ int matched_readers(const TopicWriter& stream) { return stream.matched_readers()
 std::uint64_t written(const TopicWriter& stream) { return stream.total(); }
 
 template <class T>
-TopicWriter& TypedEndpoints<T>::advertise(NodeImpl& node, const Topic<T>& topic) {
+TopicWriter& TypedEndpoints<T>::advertise(NodeImpl& node, const topics::Topic<T>& topic) {
   return node.endpoints.out(spec_of(topic));
 }
 
 template <class T>
-void TypedEndpoints<T>::subscribe(NodeImpl& node, const Topic<T>& topic,
+void TypedEndpoints<T>::subscribe(NodeImpl& node, const topics::Topic<T>& topic,
                                   std::function<void(const T&)> on_value) {
   TopicReader& input = node.subscribe(spec_of(topic));
   input.on_value.push_back(
@@ -33,7 +33,7 @@ bool TypedEndpoints<T>::dispose(TopicWriter& stream, const T& value) {
   return stream.finish(transport::serialize(value));
 }
 
-// Every type of topics.hpp.
+// Every type of topics/topics.hpp.
 template struct TypedEndpoints<v1::ClockReady>;
 template struct TypedEndpoints<v1::ClockStep>;
 template struct TypedEndpoints<v1::ClockDone>;

@@ -9,7 +9,9 @@ using temporal::Time;
 
 namespace {
 
-bool is_last(const std::optional<Word>& word) { return word && word->stage != Stage::accepted; }
+bool is_last(const std::optional<CommandStatus>& status) {
+  return status && status->stage != Stage::accepted;
+}
 
 bool stops(const Request& request) {
   return request.action == Action::execute && request.command == kStopCommand;
@@ -27,11 +29,11 @@ std::string named(const Request& request) {
 
 Reception CommandLedger::receive(const Request& request, Time now) {
   if (stops(request) || falls_back(request)) return execute_for_safety(request, now);
-  const Standing standing = standing_of(request);
+  const EpochStatus epoch_status = epoch_status_of(request);
   const bool asks = request.action == Action::query;
-  const bool harmless = standing == Standing::ahead || standing == Standing::unknown;
+  const bool harmless = epoch_status == EpochStatus::ahead || epoch_status == EpochStatus::unknown;
   if (!asks || !harmless) {
-    if (auto refused = refuse(request, standing, now)) return *std::move(refused);
+    if (auto refused = refuse(request, epoch_status, now)) return *std::move(refused);
   }
   if (auto old = answer_if_forgotten(request, now)) return {Reception::Order::nothing, std::move(old)};
   switch (request.action) {
@@ -49,23 +51,24 @@ Reception CommandLedger::receive(const Request& request, Time now) {
   return taken;
 }
 
-CommandLedger::Standing CommandLedger::standing_of(const Request& request) const {
+CommandLedger::EpochStatus CommandLedger::epoch_status_of(const Request& request) const {
   const auto known = commanders_.find(request.sender);
   if (known == commanders_.end()) {
-    if (commanders_.size() >= kCommanders) return Standing::unknown;
-    return request.epoch > kEpochJump ? Standing::ahead : Standing::current;
+    if (commanders_.size() >= kCommanders) return EpochStatus::unknown;
+    return request.epoch > kEpochJump ? EpochStatus::ahead : EpochStatus::current;
   }
   const Commander& newest = known->second;
-  if (request.epoch < newest.epoch) return Standing::stale;
-  if (request.epoch - newest.epoch > kEpochJump) return Standing::ahead;
+  if (request.epoch < newest.epoch) return EpochStatus::stale;
+  if (request.epoch - newest.epoch > kEpochJump) return EpochStatus::ahead;
   const bool told = request.incarnation != 0 && newest.incarnation != 0;
-  if (request.epoch > newest.epoch || !told) return Standing::current;
+  if (request.epoch > newest.epoch || !told) return EpochStatus::current;
   const bool same = request.incarnation == newest.incarnation && request.number > newest.number;
-  return same ? Standing::current : Standing::doubled;
+  return same ? EpochStatus::current : EpochStatus::doubled;
 }
 
-std::optional<Reception> CommandLedger::refuse(const Request& request, Standing standing, Time now) const {
-  if (standing == Standing::current) return std::nullopt;
+std::optional<Reception> CommandLedger::refuse(const Request& request, EpochStatus epoch_status,
+                                               Time now) const {
+  if (epoch_status == EpochStatus::current) return std::nullopt;
   const auto known = commanders_.find(request.sender);
   const std::uint64_t newest = known == commanders_.end() ? 0 : known->second.epoch;
   const std::string epoch = "epoch " + std::to_string(request.epoch);
@@ -73,15 +76,15 @@ std::optional<Reception> CommandLedger::refuse(const Request& request, Standing 
   const auto say = [&](std::string code, std::string reason) {
     out.ack = Ack{request.key, {Stage::rejected, std::move(code), std::move(reason)}, now, newest, true};
   };
-  if (standing == Standing::stale) {
+  if (epoch_status == EpochStatus::stale) {
     say("old-epoch", epoch + " is over; the executive in charge has epoch " + std::to_string(newest));
     return out;
   }
-  if (standing == Standing::doubled) {
+  if (epoch_status == EpochStatus::doubled) {
     say("doubled-epoch", epoch + " was begun by another process; take a later one");
     out.notice = Notice{"commander.doubled", "two processes command as " + request.sender + " in " + epoch +
                                                  "; this one is refused"};
-  } else if (standing == Standing::ahead) {
+  } else if (epoch_status == EpochStatus::ahead) {
     say("epoch-jump", epoch + " is more than " + std::to_string(kEpochJump) + " after the newest, " +
                           std::to_string(newest) + "; lead in an earlier one first");
     out.notice = Notice{"command.epoch_jump", request.sender + " commands in " + epoch + ", the newest is " +
@@ -104,7 +107,7 @@ Reception CommandLedger::execute(const Request& request, Time now) {
     return {Reception::Order::nothing, std::move(old)};
   const auto [record, is_new] = records_.try_emplace(request.key);
   if (!is_new) {
-    if (!record->second.word) return {};  // its word is still to come
+    if (!record->second.status) return {};  // its status is still to come
     return {Reception::Order::nothing, answer(request.key, now)};
   }
   const bool counts = !stops(request) && !falls_back(request);
@@ -121,7 +124,7 @@ Reception CommandLedger::execute(const Request& request, Time now) {
 /// Neither takes the lease nor raises the epoch.
 Reception CommandLedger::execute_for_safety(const Request& request, Time now) {
   const std::string holder = lease_holder(request.robot, request.subsystem);
-  const bool current = standing_of(request) == Standing::current;
+  const bool current = epoch_status_of(request) == EpochStatus::current;
   const bool holds = holder.empty() ? current : current && holder == request.sender;
   if (!stops(request) && !holds && !holder.empty()) return refuse_fallback(request, holder, now);
   Reception out = execute(request, now);
@@ -134,7 +137,7 @@ Reception CommandLedger::execute_for_safety(const Request& request, Time now) {
 }
 
 Reception CommandLedger::refuse_fallback(const Request& request, const std::string& holder, Time now) const {
-  if (holder == request.sender) return *refuse(request, standing_of(request), now);
+  if (holder == request.sender) return *refuse(request, epoch_status_of(request), now);
   Reception out;
   out.ack =
       Ack{request.key,
@@ -177,31 +180,32 @@ void CommandLedger::restore(const LedgerEntry& entry) {
   if (entry.kind == LedgerEntry::Kind::forgotten)
     return retention_.restore(entry.key.commander, {entry.key.issued_epoch, entry.plan});
   Record& record = records_[entry.key];
-  if (entry.word) {
-    record.word = entry.word;
+  if (entry.status) {
+    record.status = entry.status;
   } else {
     record.plan = entry.plan;
     retention_.taken(entry.key, entry.plan);
   }
-  if (is_last(entry.word)) end(entry.key, record);
+  if (is_last(entry.status)) end(entry.key, record);
 }
 
 bool CommandLedger::resume(const Request& request, Time accepted) {
   Record* record = open_record(request.key);
-  const auto is_open = [](const auto& one) { return !is_last(one.second.word); };
+  const auto is_open = [](const auto& one) { return !is_last(one.second.status); };
   if (!record || std::ranges::count_if(records_, is_open) > 1) return false;
   record->robot = request.robot;
   record->subsystem = request.subsystem;
   record->latest_end = request.latest_end;
-  record->word = Word{};
+  record->status = CommandStatus{};
   record->accepted = accepted;
   return true;
 }
 
 void CommandLedger::end_restored() {
   for (auto& [key, record] : records_) {
-    if (record.word) continue;
-    record.word = Word{Stage::failed, "owner-restarted", "its owner was started anew while it ran"};
+    if (record.status) continue;
+    record.status =
+        CommandStatus{Stage::failed, "owner-restarted", "its owner was started anew while it ran"};
     retention_.ended(key, record.plan);
   }
 }
@@ -212,11 +216,11 @@ Reception CommandLedger::cancel(const Request& request, Time now) {
     raise(request);
     return {Reception::Order::break_off, std::nullopt};
   }
-  Ack word = answer(request.key, now);
-  if (word.word.stage != Stage::unknown) {
-    word.word = {Stage::cancel_failed, "already-ended", "it has already ended (" + word.word.code + ")"};
+  Ack told = answer(request.key, now);
+  if (told.status.stage != Stage::unknown) {
+    told.status = {Stage::cancel_failed, "already-ended", "it has already ended (" + told.status.code + ")"};
   }
-  return {Reception::Order::nothing, std::move(word)};
+  return {Reception::Order::nothing, std::move(told)};
 }
 
 /// The record may be gone then.
@@ -229,8 +233,8 @@ std::optional<Ack> CommandLedger::answer_if_forgotten(const Request& request, Ti
   if (records_.contains(request.key) || !retention_.forgotten(request.key, request.plan)) return std::nullopt;
   if (request.action == Action::cancel)
     return ack(request.key, {Stage::cancel_failed, "already-ended", "it has ended long ago"}, now);
-  return ack(request.key, {Stage::failed, "forgotten", "it ended so long ago that its last word is not kept"},
-             now);
+  return ack(request.key,
+             {Stage::failed, "forgotten", "it ended so long ago that its last status is not kept"}, now);
 }
 
 std::vector<LedgerEntry> CommandLedger::kept() const {
@@ -243,30 +247,30 @@ std::vector<LedgerEntry> CommandLedger::kept() const {
     const auto record = records_.find(one.key);
     if (record == records_.end()) continue;
     out.push_back({one.key, "", 0, std::nullopt, one.mark.plan});
-    out.push_back({one.key, "", 0, record->second.word});
+    out.push_back({one.key, "", 0, record->second.status});
   }
   for (const auto& [key, record] : records_)
-    if (!is_last(record.word)) out.push_back({key, "", 0, std::nullopt, record.plan});
+    if (!is_last(record.status)) out.push_back({key, "", 0, std::nullopt, record.plan});
   return out;
 }
 
 CommandLedger::Record* CommandLedger::open_record(const CommandKey& key) {
   const auto found = records_.find(key);
-  if (found == records_.end() || is_last(found->second.word)) return nullptr;
+  if (found == records_.end() || is_last(found->second.status)) return nullptr;
   return &found->second;
 }
 
-std::optional<Ack> CommandLedger::say(const CommandKey& key, Word word, Time now) {
+std::optional<Ack> CommandLedger::say(const CommandKey& key, CommandStatus status, Time now) {
   Record* record = open_record(key);
-  if (!record || word.stage == Stage::cancel_failed || word.stage == Stage::unknown) return std::nullopt;
-  if (!record->word) record->accepted = now;
-  if (word.stage != Stage::accepted && word.stage != Stage::rejected && !word.results.duration) {
-    word.results.duration = now - record->accepted;
+  if (!record || status.stage == Stage::cancel_failed || status.stage == Stage::unknown) return std::nullopt;
+  if (!record->status) record->accepted = now;
+  if (status.stage != Stage::accepted && status.stage != Stage::rejected && !status.results.duration) {
+    status.results.duration = now - record->accepted;
   }
-  record->word = std::move(word);
-  const Ack said = ack(key, *record->word, now);
-  if (is_last(record->word)) {
-    entries_.push_back({key, "", 0, record->word});
+  record->status = std::move(status);
+  const Ack said = ack(key, *record->status, now);
+  if (is_last(record->status)) {
+    entries_.push_back({key, "", 0, record->status});
     end(key, *record);
   }
   return said;
@@ -280,7 +284,7 @@ std::optional<Ack> CommandLedger::refuse_cancel(const CommandKey& key, std::stri
 
 std::optional<Ack> CommandLedger::repair(const CommandKey& key, std::string reason, Time now) {
   Record* record = open_record(key);
-  if (!record || !record->word || (record->latest_end && now >= *record->latest_end)) return std::nullopt;
+  if (!record || !record->status || (record->latest_end && now >= *record->latest_end)) return std::nullopt;
   record->repaired = true;
   return say(key, {Stage::accepted, "repairing", std::move(reason)}, now);
 }
@@ -288,7 +292,7 @@ std::optional<Ack> CommandLedger::repair(const CommandKey& key, std::string reas
 std::optional<Time> CommandLedger::next_overrun() const {
   std::optional<Time> first;
   for (const auto& [key, record] : records_) {
-    if (!record.repaired || !record.latest_end || is_last(record.word)) continue;
+    if (!record.repaired || !record.latest_end || is_last(record.status)) continue;
     if (!first || *record.latest_end < *first) first = record.latest_end;
   }
   if (first) *first += Time{1};
@@ -298,7 +302,7 @@ std::optional<Time> CommandLedger::next_overrun() const {
 std::vector<CommandKey> CommandLedger::take_overruns(Time now) {
   std::vector<CommandKey> out;
   for (auto& [key, record] : records_) {
-    const bool limited = record.repaired && record.latest_end && !is_last(record.word);
+    const bool limited = record.repaired && record.latest_end && !is_last(record.status);
     if (!limited || *record.latest_end >= now) continue;
     record.repaired = false;
     out.push_back(key);
@@ -309,7 +313,7 @@ std::vector<CommandKey> CommandLedger::take_overruns(Time now) {
 std::vector<CommandKey> CommandLedger::open(const std::string& robot, const std::string& subsystem) const {
   std::vector<CommandKey> out;
   for (const auto& [key, record] : records_) {
-    if (record.robot == robot && record.subsystem == subsystem && !is_last(record.word)) out.push_back(key);
+    if (record.robot == robot && record.subsystem == subsystem && !is_last(record.status)) out.push_back(key);
   }
   return out;
 }
@@ -320,12 +324,12 @@ Ack CommandLedger::answer(const CommandKey& key, Time now) const {
     return ack(key, {Stage::unknown, "unknown-key", "this activity was never commanded here"}, now);
   }
   // What was taken and not yet worded is on its way.
-  return ack(key, record->second.word.value_or(Word{}), now);
+  return ack(key, record->second.status.value_or(CommandStatus{}), now);
 }
 
-Ack CommandLedger::ack(const CommandKey& key, Word word, Time now) const {
+Ack CommandLedger::ack(const CommandKey& key, CommandStatus status, Time now) const {
   const auto known = commanders_.find(key.commander);
-  return {key, std::move(word), now, known == commanders_.end() ? 0 : known->second.epoch};
+  return {key, std::move(status), now, known == commanders_.end() ? 0 : known->second.epoch};
 }
 
 }  // namespace roci::services::owner

@@ -13,7 +13,7 @@
 
 namespace roci::services::owner {
 
-/// Is for operators: a stable code and plain words on a commander that is not who it should be.
+/// Informs operators of a commander that is not who it should be: a stable code and plain words.
 struct Notice {
   std::string code;
   std::string text;
@@ -22,93 +22,93 @@ struct Notice {
 /// Says what the owner has to do about a request.
 struct Reception {
   enum class Order {
-    nothing,    ///< the acknowledgement, if there is one, says all
+    nothing,    ///< beyond sending the acknowledgement, if there is one
     carry_out,  ///< the command is new: begin or reject it
     break_off,  ///< end it with word(…, cancelled) or refuse with refuse_cancel()
   };
   Order order = Order::nothing;
-  std::optional<Ack> ack{};        ///< is to be sent at once
-  std::optional<Notice> notice{};  ///< is to be told
+  std::optional<Ack> ack{};        ///< to be sent at once
+  std::optional<Notice> notice{};  ///< to be reported
 };
 
-/// Is what must outlive the owner's process: a key with its last word (none: it was taken), and the newest
+/// Is what must outlive the owner's process: a key with its last status (none: it was taken), and the newest
 /// epoch of whoever sent it.
 struct LedgerEntry {
-  /// Other kinds name no activity: `epoch` keeps a sender's newest epoch alone, `forgotten` says that every key of the
-  /// commander up to this epoch and plan that has no entry of its own is an old one.
+  /// Tells the kinds of entries apart. Kinds other than `command` name no activity: `epoch` keeps a sender's newest
+  /// epoch alone; `forgotten` says that every key of the commander up to this epoch and plan without an entry of its
+  /// own is an old one.
   enum class Kind { command, epoch, forgotten };
   CommandKey key;
   std::string sender;
   std::uint64_t epoch = 0;
-  std::optional<Word> word{};
+  std::optional<CommandStatus> status{};
   std::uint32_t plan = 0;
   Kind kind = Kind::command;
   bool operator==(const LedgerEntry&) const = default;
 };
 
-/// Takes each key once. What repeats it, and every query, gets the last word again. A cancel has two phases:
-/// the order to break off, and how that went. What ended keeps its last word until it is one of the oldest of many
+/// Takes each key once. What repeats it, and every query, gets the last status again. A cancel has two phases:
+/// the order to break off, and how that went. What ended keeps its last status until it is one of the oldest of many
 /// (retention.hpp); then its key is still never taken again, and its answer is `failed`, `forgotten`.
 ///
-/// Epochs are counted by who sends. A command or a cancel that is taken raises its sender's epoch, by kEpochJump at
+/// Epochs are counted by sender. A command or a cancel that is taken raises its sender's epoch, by kEpochJump at
 /// most; nothing else does. An epoch that is over, that another process of the same name has used, or that is
 /// further ahead is refused and told the newest. A stop is taken from anybody; a fall-back from who holds the
 /// subsystem's lease, or from anybody while nobody does.
 ///
-/// Whoever's command a subsystem took last holds its lease (Gray and Cheriton, 1989) until release().
+/// The commander whose command a subsystem took last holds its lease (Gray and Cheriton, 1989) until release().
 class CommandLedger {
  public:
-  /// So many commanders have an epoch here; others are refused.
+  /// Bounds the commanders that have an epoch here; others are refused.
   static constexpr std::size_t kCommanders = 64;
 
   Reception receive(const Request&, temporal::Time now);
 
   /// Returns the newest epoch of this commander that was taken; 0: none.
   std::uint64_t newest_epoch(const std::string& commander) const;
-  /// Returns the answer to whom another process of the same name keeps from commanding, which holds the lease in
-  /// `holder_epoch` (commander_leases.hpp). It takes nothing, so its key is free still.
+  /// Returns the answer to a process that may not command because another one of the same name holds the lease,
+  /// in `holder_epoch` (commander_leases.hpp). It takes nothing, so the key stays free.
   Ack refuse_unleased(const Request&, std::uint64_t holder_epoch, temporal::Time now) const;
 
-  /// Takes in that this commander is gone: it holds no lease any more.
+  /// Takes in that this commander is gone and holds no lease any more.
   void release(const std::string& commander);
   /// Returns who holds the lease of a robot's subsystem, or "" if nobody does.
   std::string lease_holder(const std::string& robot, const std::string& subsystem) const;
 
-  /// Takes the owner's word on a command that it took and that has no last word yet: accepted, rejected,
+  /// Takes the owner's status of a command that it took and that has no last status yet: accepted, rejected,
   /// completed, failed or cancelled. Returns nothing, without effect, if there is no such command.
-  std::optional<Ack> say(const CommandKey&, Word, temporal::Time now);
+  std::optional<Ack> say(const CommandKey&, CommandStatus, temporal::Time now);
   /// Takes in that the command runs on although somebody wanted it cancelled. Returns nothing if nobody does.
   std::optional<Ack> refuse_cancel(const CommandKey&, std::string reason, temporal::Time now);
 
-  /// Takes in that the owner tries again by itself (R146): it says so, and a success will look like any
-  /// other. Returns nothing if there is no such running command, or its latest end has passed, and the owner
-  /// fails it.
+  /// Takes in that the owner tries again by itself (R146). Returns the word to send; a success will look like
+  /// any other. Returns nothing if there is no such running command or its latest end has passed; the owner
+  /// then fails it.
   std::optional<Ack> repair(const CommandKey&, std::string reason, temporal::Time now);
-  /// Returns when the first repaired command has not ended in time, a microsecond after its latest end; nothing if none
-  /// is limited.
+  /// Returns when the first repaired command will be overdue, a microsecond after its latest end, or nothing if none is
+  /// limited.
   std::optional<temporal::Time> next_overrun() const;
-  /// Returns the repaired commands that have not ended in time, each once: the owner breaks them off as
-  /// failed.
+  /// Returns the repaired commands that are overdue, each once: the owner breaks them off as failed.
   std::vector<CommandKey> take_overruns(temporal::Time now);
 
-  /// Returns the commands of the robot's subsystem that have no last word.
+  /// Returns the commands of the robot's subsystem that have no last status.
   std::vector<CommandKey> open(const std::string& robot, const std::string& subsystem) const;
-  /// Returns the key's last word, with stage `unknown` for a key never taken.
+  /// Returns the key's last status, with stage `unknown` for a key never taken.
   Ack answer(const CommandKey&, temporal::Time now) const;
 
-  /// Returns what is new since the last call, in order; what is not kept before it is acted upon is lost with the
-  /// process.
+  /// Returns the entries since the last call, in order; the owner must keep them before it acts, or they are lost
+  /// with the process.
   std::vector<LedgerEntry> take_entries() { return std::exchange(entries_, {}); }
-  /// Returns what an owner must keep of all that was, so that its file may begin anew with it: as many entries as there
-  /// are commands that are not forgotten, twice, and a few.
+  /// Returns all that an owner must keep, so that its file may begin anew with it: two entries for each command that is
+  /// not forgotten, and a few more.
   std::vector<LedgerEntry> kept() const;
-  /// Before the first request: takes in what an earlier process kept.
+  /// Takes in, before the first request, what an earlier process kept.
   void restore(const LedgerEntry&);
-  /// After the last restore(): takes in that this owner goes on with a command that the earlier process accepted then.
-  /// Returns false if that one never took it, or has ended it, or was taking something else, too:
-  /// that may have been a stop.
+  /// Takes in, after the last restore(), that this owner goes on with a command that the earlier process accepted at
+  /// that time. Returns false if the earlier process never took it, or ended it, or had another command open, too,
+  /// which may have been a stop.
   bool resume(const Request&, temporal::Time accepted);
-  /// After that: what else the earlier process had not ended has failed with it.
+  /// Ends the restoration: what else the earlier process had not ended has failed with it.
   void end_restored();
 
  private:
@@ -116,22 +116,22 @@ class CommandLedger {
     std::string robot;
     std::string subsystem;
     std::optional<temporal::Time> latest_end;
-    std::optional<Word> word;  // empty: taken, and nothing said so far
+    std::optional<CommandStatus> status;  // empty: taken, and nothing said so far
     temporal::Time accepted{};
     bool cancelling = false;
     bool repaired = false;
     std::uint32_t plan = 0;
   };
-  // The newest epoch of one sender, and which of its processes has used it.
+  // Holds the newest epoch of one sender, and which of its processes has used it.
   struct Commander {
     std::uint64_t epoch = 0;
     std::uint32_t incarnation = 0;
     std::uint64_t number = 0;
   };
-  enum class Standing { current, stale, doubled, ahead, unknown };
+  enum class EpochStatus { current, stale, doubled, ahead, unknown };
 
-  Standing standing_of(const Request&) const;
-  std::optional<Reception> refuse(const Request&, Standing, temporal::Time now) const;
+  EpochStatus epoch_status_of(const Request&) const;
+  std::optional<Reception> refuse(const Request&, EpochStatus, temporal::Time now) const;
   Reception refuse_fallback(const Request&, const std::string& holder, temporal::Time now) const;
   void raise(const Request&);
   Reception execute(const Request&, temporal::Time now);
@@ -140,7 +140,7 @@ class CommandLedger {
   Record* open_record(const CommandKey&);
   std::optional<Ack> answer_if_forgotten(const Request&, temporal::Time now) const;
   void end(const CommandKey&, const Record&);
-  Ack ack(const CommandKey&, Word, temporal::Time now) const;
+  Ack ack(const CommandKey&, CommandStatus, temporal::Time now) const;
 
   std::map<std::string, Commander> commanders_;                        // by who sends
   std::map<std::pair<std::string, std::string>, std::string> leases_;  // who holds it, by robot and subsystem

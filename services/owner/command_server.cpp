@@ -157,8 +157,8 @@ void CommandServer::stop(const Request& request) {
   say(request.key, {Stage::completed, "done", ""});
 }
 
-bool CommandServer::say(const CommandKey& key, Word word) {
-  return send(ledger_.say(key, std::move(word), node_.now()));
+bool CommandServer::say(const CommandKey& key, CommandStatus status) {
+  return send(ledger_.say(key, std::move(status), node_.now()));
 }
 
 bool CommandServer::refuse_cancel(const CommandKey& key, std::string reason) {
@@ -188,7 +188,8 @@ void CommandServer::watch_overruns() {
   overrun_ = node_.at(*next, [this] {
     overrun_.reset();
     for (const CommandKey& key : ledger_.take_overruns(node_.now())) {
-      const Word why{Stage::failed, "repair-overrun", "the step's time was over before the repair was"};
+      const CommandStatus why{Stage::failed, "repair-overrun",
+                              "the step's time was over before the repair was"};
       driver_.break_off(key, why);
     }
     watch_overruns();

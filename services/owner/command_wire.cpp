@@ -85,32 +85,32 @@ v1::CommandAck to_wire(const Ack& ack, const std::string& owner) {
   out.epoch(ack.key.issued_epoch);
   out.activity(ack.key.activity);
   out.attempt(ack.key.attempt);
-  out.stage(stage_of(ack.word.stage));
+  out.stage(stage_of(ack.status.stage));
   out.owner(owner);
-  out.code(ack.word.code);
-  out.reason(ack.word.reason);
-  out.outcome(to_wire(ack.word.results));
+  out.code(ack.status.code);
+  out.reason(ack.status.reason);
+  out.outcome(to_wire(ack.status.results));
   out.newest_epoch(ack.newest_epoch);
   out.refused_epoch(ack.refused_epoch);
   return out;
 }
 
-Word word_from_wire(const v1::CommandAck& ack) {
-  Word word{static_cast<Stage>(std::min<std::uint32_t>(ack.stage(), v1::STAGE_UNKNOWN)),
-            ack.code(),
-            ack.reason(),
-            {}};
+CommandStatus status_from_wire(const v1::CommandAck& ack) {
+  CommandStatus status{static_cast<Stage>(std::min<std::uint32_t>(ack.stage(), v1::STAGE_UNKNOWN)),
+                       ack.code(),
+                       ack.reason(),
+                       {}};
   const v1::CommandResult& outcome = ack.outcome();
-  if (outcome.duration_us() >= 0) word.results.duration = temporal::Duration(outcome.duration_us());
-  if (std::isfinite(outcome.energy_j())) word.results.energy_j = outcome.energy_j();
+  if (outcome.duration_us() >= 0) status.results.duration = temporal::Duration(outcome.duration_us());
+  if (std::isfinite(outcome.energy_j())) status.results.energy_j = outcome.energy_j();
   for (const v1::NamedValue& measured : outcome.measured()) {
-    if (word.results.values.size() >= kMostValues || measured.name().size() > kMostNameBytes) continue;
+    if (status.results.values.size() >= kMostValues || measured.name().size() > kMostNameBytes) continue;
     try {
-      word.results.values[measured.name()] = wire::from_wire(measured.held());
+      status.results.values[measured.name()] = wire::from_wire(measured.held());
     } catch (const wire::WireError&) {  // counts as not measured
     }
   }
-  return word;
+  return status;
 }
 
 }  // namespace roci::services::owner

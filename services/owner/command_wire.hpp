@@ -13,6 +13,6 @@ Request from_wire(const v1::Command&);
 v1::CommandAck to_wire(const Ack&, const std::string& owner);
 v1::CommandResult to_wire(const Results&);
 /// What an acknowledgement says; a number that is not finite counts as not measured.
-Word word_from_wire(const v1::CommandAck&);
+CommandStatus status_from_wire(const v1::CommandAck&);
 
 }  // namespace roci::services::owner

@@ -9,15 +9,15 @@
 
 namespace roci::services::owner {
 
-/// Is what a process says that wants to command, goes on to, or does not any more.
+/// Holds what a process says of its wish to command: that it wants to, goes on, or no longer wants to.
 struct LeaseAsk {
-  std::string commander;    ///< in whose name it commands
+  std::string commander;    ///< name in which it commands
   std::string member;       ///< tells the processes of that name apart
-  std::uint64_t epoch = 0;  ///< in which it commands, or would
+  std::uint64_t epoch = 0;  ///< epoch in which it commands, or would
   bool wanted = false;      ///< false: what it had is given back
-  bool leads = false;       ///< in that epoch; false: it would
+  bool leads = false;       ///< it leads in that epoch; false: it would
   std::chrono::microseconds term{0};
-  std::chrono::microseconds said{0};  ///< on its own clock, which never jumps
+  std::chrono::microseconds said{0};  ///< time on its own steady clock
 };
 
 /// Says who commands in a commander's name.
@@ -29,28 +29,29 @@ struct LeaseGrant {
   bool operator==(const LeaseGrant&) const = default;
 };
 
-/// Grants to one (member, epoch) of each commander at a time, for the term that it asked for, counted from when its
-/// newest request came. Whoever else asks, also in a higher epoch, gets the lease when that time is over or when the
-/// holder has given it back (Gray and Cheriton, Leases, SOSP 1989, section 2). A holder that counts from when it
-/// said what is echoed never believes longer than the owner that it holds.
+/// Grants the lease of each commander to one (member, epoch) at a time, for the term that it asked for, counted from
+/// when its newest request came. Another one that asks, also in a higher epoch, gets the lease when that time is
+/// over or when the holder has given it back (Gray and Cheriton, Leases, SOSP 1989, section 2). A holder that counts
+/// from when it said what is echoed never believes longer than the owner that it holds.
 class CommanderLeases {
  public:
-  using Moment = std::chrono::microseconds;  ///< on the owner's own clock, which never jumps
+  using Moment = std::chrono::microseconds;  ///< on the owner's own steady clock
 
-  /// No lease lasts longer than this beyond its newest renewal.
+  /// Bounds a lease beyond its newest renewal.
   static constexpr Moment kLongestTerm = std::chrono::seconds(60);
-  /// So many commanders have a lease; others get none.
+  /// Bounds the commanders that have a lease; others get none.
   static constexpr std::size_t kCommanders = 64;
 
   /// Takes a request in and returns who holds the lease now. `newest_epoch` is the newest in which the commander has
-  /// commanded here. Who asks in an older one, or in one older than that of a holder who led, gets nothing: it was
-  /// replaced. An epoch more than kEpochJump after them changes nothing, as with commands (command_ledger.hpp).
+  /// commanded here. A member that asks in an older one, or in one older than that of a holder that led, gets
+  /// nothing: it was replaced. An epoch more than kEpochJump later changes nothing, as with commands
+  /// (command_ledger.hpp).
   LeaseGrant ask(const LeaseAsk& ask, std::uint64_t newest_epoch, Moment now);
-  /// Returns the newest epoch of a holder who led; 0: none did.
+  /// Returns the newest epoch of a holder that led, or 0 if none did.
   std::uint64_t newest_led(const std::string& commander) const;
 
-  /// Returns whether a command in this epoch may be taken: nobody holds the lease, or this epoch does; its holder
-  /// keeps the lease longer by that.
+  /// Returns whether a command in this epoch may be taken: nobody holds the lease, or this epoch does. The
+  /// holder's lease is renewed by that.
   bool admits(const std::string& commander, std::uint64_t epoch, Moment now);
 
   /// Returns who holds the lease.

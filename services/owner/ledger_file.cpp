@@ -5,13 +5,13 @@
 
 #include <cerrno>
 #include <cmath>
-#include <cstdio>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <system_error>
 #include <utility>
 
+#include "core/durable/durable_file.hpp"
 #include "services/log/log.hpp"
 #include "services/owner/value_json.hpp"
 
@@ -20,19 +20,19 @@ namespace {
 
 using nlohmann::json;
 
-json to_json(const Word& word) {
-  json out{{"stage", static_cast<int>(word.stage)}, {"code", word.code}, {"reason", word.reason}};
-  if (word.results.duration) out["duration_us"] = word.results.duration->count();
-  if (word.results.energy_j) out["energy_j"] = *word.results.energy_j;
-  for (const auto& [name, value] : word.results.values) out["values"][name] = owner::to_json(value);
+json to_json(const CommandStatus& status) {
+  json out{{"stage", static_cast<int>(status.stage)}, {"code", status.code}, {"reason", status.reason}};
+  if (status.results.duration) out["duration_us"] = status.results.duration->count();
+  if (status.results.energy_j) out["energy_j"] = *status.results.energy_j;
+  for (const auto& [name, value] : status.results.values) out["values"][name] = owner::to_json(value);
   return out;
 }
 
-Word word_in(const json& in) {
+CommandStatus status_in(const json& in) {
   const int stage = in.at("stage").get<int>();
   if (stage < static_cast<int>(Stage::rejected) || stage > static_cast<int>(Stage::cancelled))
-    throw std::invalid_argument("stage " + std::to_string(stage) + " is no last word");
-  Word out{
+    throw std::invalid_argument("stage " + std::to_string(stage) + " is no last status");
+  CommandStatus out{
       static_cast<Stage>(stage), in.at("code").get<std::string>(), in.at("reason").get<std::string>(), {}};
   if (in.contains("duration_us"))
     out.results.duration = temporal::Duration(in["duration_us"].get<std::int64_t>());
@@ -52,7 +52,7 @@ json to_json(const LedgerEntry& entry) {
     out["sender"] = entry.sender;
     out["epoch"] = entry.epoch;
   }
-  if (entry.word) out["word"] = to_json(*entry.word);
+  if (entry.status) out["word"] = to_json(*entry.status);
   if (entry.plan > 0) out["plan"] = entry.plan;
   if (entry.kind == LedgerEntry::Kind::epoch) out["only"] = "epoch";
   if (entry.kind == LedgerEntry::Kind::forgotten) out["only"] = "forgotten";
@@ -69,7 +69,7 @@ LedgerEntry entry_in(const json& in) {
              in.at("commander").get<std::string>(), in.at("issued").get<std::uint64_t>()};
   out.sender = in.value("sender", "");
   out.epoch = in.value("epoch", std::uint64_t{0});
-  if (in.contains("word")) out.word = word_in(in["word"]);
+  if (in.contains("word")) out.status = status_in(in["word"]);
   out.plan = in.value("plan", std::uint32_t{0});
   const std::string only = in.value("only", "");
   if (only == "epoch") out.kind = LedgerEntry::Kind::epoch;
@@ -133,17 +133,22 @@ void LedgerFile::replace(const std::vector<LedgerEntry>& entries) {
   for (const LedgerEntry& entry : entries) text += line_of(entry);
   const std::filesystem::path next = std::filesystem::path(file_).concat(".new");
   const int descriptor = open_for_appending(next, O_TRUNC);
-  const bool written = write(descriptor, text.data(), text.size()) == static_cast<ssize_t>(text.size()) &&
-                       fsync(descriptor) == 0 && rename(next.c_str(), file_.c_str()) == 0;
-  if (!written) {
-    const int cause = errno;
+  const auto give_up = [&](int cause) {
     close(descriptor);
     unlink(next.c_str());
     throw std::system_error(cause, std::generic_category(), "cannot write " + next.string());
+  };
+  if (write(descriptor, text.data(), text.size()) != static_cast<ssize_t>(text.size())) give_up(errno);
+  if (fsync(descriptor) != 0) give_up(errno);
+  try {
+    durable::put_in_place(next, file_, durable::Durability::process);
+  } catch (const std::system_error& error) {
+    give_up(error.code().value());
   }
   close(std::exchange(descriptor_, descriptor));
   torn_ = false;
   appended_ = 0;
+  durable::sync_folder(std::filesystem::path(file_).parent_path());
 }
 
 }  // namespace roci::services::owner

@@ -9,8 +9,8 @@
 
 namespace roci::services::owner {
 
-/// Holds the file open. What append() has returned from survives the death of the process, though not the loss
-/// of power.
+/// Holds the file open. An entry survives the death of the process once append() has returned, though not the
+/// loss of power.
 class LedgerFile {
  public:
   /// Opens or makes the file. Throws std::system_error if that is impossible.
@@ -24,8 +24,8 @@ class LedgerFile {
   std::vector<LedgerEntry> read() const;
   /// Throws std::system_error if the entry cannot be written whole.
   void append(const LedgerEntry&);
-  /// Begins the file anew with these entries, in one step: whoever reads it finds the old ones or the new ones. Throws
-  /// std::system_error if that is impossible; nothing has changed then.
+  /// Begins the file anew with these entries, in one step: whoever reads it finds the old ones or the new ones, after a
+  /// loss of power, too. Throws std::system_error if that is impossible; the entries of before are lost in no case.
   void replace(const std::vector<LedgerEntry>&);
   /// Returns how many entries were appended since the file was opened or replaced.
   std::size_t appended() const { return appended_; }

@@ -1,6 +1,7 @@
 #include "services/owner/retention.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace roci::services::owner {
 
@@ -16,15 +17,26 @@ void Retention::ended(const CommandKey& key, std::uint32_t plan) {
 std::vector<CommandKey> Retention::take_due() {
   std::vector<CommandKey> out;
   if (ended_.size() < look_again_at_) return out;
-  const auto newest_kept = ended_.end() - static_cast<std::ptrdiff_t>(kKept);
-  const auto due = [this](const Ended& one) { return one.mark < newest_[one.key.commander]; };
-  for (auto one = ended_.begin(); one != newest_kept; ++one) {
-    if (!due(*one)) continue;  // its plan may still ask for it
-    IssueMark& forgotten = forgotten_[one->key.commander];
-    forgotten = std::max(forgotten, one->mark);
-    out.push_back(one->key);
+  const auto is_old = [this](const Ended& one) { return one.mark < newest_[one.key.commander]; };
+  const auto without_plan = [&](const Ended& one) { return one.mark.plan == 0 && !is_old(one); };
+  const auto many = static_cast<std::size_t>(std::ranges::count_if(ended_, without_plan));
+  std::size_t surplus = many - std::min(many, kWithoutPlan);
+  std::vector<Ended> kept;
+  for (std::size_t i = 0; i < ended_.size(); ++i) {
+    const Ended& one = ended_[i];
+    const bool is_new = i + kKept >= ended_.size();
+    if (!is_new && is_old(one)) {
+      IssueMark& forgotten = forgotten_[one.key.commander];
+      forgotten = std::max(forgotten, one.mark);
+      out.push_back(one.key);
+    } else if (!is_new && surplus > 0 && without_plan(one)) {
+      --surplus;
+      out.push_back(one.key);
+    } else {
+      kept.push_back(one);
+    }
   }
-  ended_.erase(std::remove_if(ended_.begin(), newest_kept, due), newest_kept);
+  ended_ = std::move(kept);
   look_again_at_ = 2 * std::max(ended_.size(), kKept);
   return out;
 }

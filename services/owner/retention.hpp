@@ -1,5 +1,5 @@
-// The retention of ended commands: an owner that runs for years keeps the last words of the newest ones and can tell an
-// older key from one that it never heard.
+// The retention of ended commands: an owner that runs for years keeps the last statuses of the newest ones and can tell
+// an older key from one that it never heard.
 #pragma once
 
 #include <compare>
@@ -13,9 +13,8 @@
 
 namespace roci::services::owner {
 
-/// Orders the commands of one commander: by its epoch when it first sent them, and by the plan that they are of.
-/// Neither ever falls for what a commander sends for the first time,
-/// so what is at or before a mark that was passed is old.
+/// Orders the commands of one commander by its epoch when it first sent them, and by their plan. Neither ever
+/// falls for what a commander sends for the first time, so what is at or before a mark that was passed is old.
 struct IssueMark {
   std::uint64_t epoch = 0;
   std::uint32_t plan = 0;
@@ -24,16 +23,19 @@ struct IssueMark {
 
 /// Says which ended keys may be forgotten. Guarantees: a key that was forgotten is recognised for good by its mark, so
 /// it is never carried out again; the newest kKept ended keys are not forgotten, nor any of a commander's newest plan.
-/// A commander that tells neither epochs nor plans has one mark for everything, and none of its keys is forgotten.
+/// What tells no plan (a stop, a fall-back, the commands of a commander without plans) cannot be told from a new one
+/// once it is forgotten, so more of it is kept: kWithoutPlan to twice as many, then the oldest go.
 class Retention {
  public:
-  /// So many ended commands keep their last word. Whoever asks for one asks for what it commanded last: after a lost
+  /// So many ended commands keep their last status. Whoever asks for one asks for what it commanded last: after a lost
   /// answer or a restart, a handful.
   static constexpr std::size_t kKept = 1000;
+  /// A stop each ten seconds for a day. One that comes again after so many others stops what is stopped.
+  static constexpr std::size_t kWithoutPlan = 10'000;
 
   /// Takes in that the key was taken.
   void taken(const CommandKey&, std::uint32_t plan);
-  /// Takes in that the key has its last word.
+  /// Takes in that the key has its last status.
   void ended(const CommandKey&, std::uint32_t plan);
 
   /// Returns the keys to be forgotten now, and marks them; each once. There are none until kKept more have ended.
@@ -56,7 +58,7 @@ class Retention {
  private:
   std::map<std::string, IssueMark> newest_, forgotten_;  // by commander
   std::vector<Ended> ended_;                             // the oldest first
-  std::size_t look_again_at_ = 2 * kKept;  // so many, so that nobody looks through them each time
+  std::size_t look_again_at_ = 2 * kKept;                // bounds how often they are searched
 };
 
 }  // namespace roci::services::owner

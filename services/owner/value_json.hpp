@@ -1,4 +1,4 @@
-// Values of timelines in the files that owners keep.
+// This file writes and reads values of timelines in the files that owners keep.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -7,7 +7,7 @@
 
 namespace roci::services::owner {
 
-/// Returns null for a number that is not finite and for what is unknown.
+/// Returns the value as JSON; null stands for a number that is not finite and for an unknown value.
 nlohmann::json to_json(const temporal::Value& value);
 
 /// Reads what to_json() has made; throws nlohmann::json::exception for an object that is no state.

@@ -1,4 +1,5 @@
-// Tells when the system clock of a host is set, where no launcher does: systemd starts each service by itself.
+// The clock watch reports that the system clock of a host is set, where no launcher does: systemd starts each
+// service by itself.
 #pragma once
 
 #include <filesystem>
@@ -11,14 +12,14 @@
 
 namespace roci::services::process {
 
-/// Names the environment variable by which whoever starts a live service leaves the watch to it ("1"): `roci-launch
-/// --become` does, a launcher that stays watches itself.
+/// Names the environment variable ("1") that leaves the watch to a live service: `roci-launch --become` sets it,
+/// whereas a launcher that stays watches itself.
 inline constexpr char kClockWatchVariable[] = "ROCI_CLOCK_WATCH";
 
-/// Of the services of a host one watches: who holds the lock on the file `clock-watch` of the run folder that they
-/// share. It tells by the log and the event `clock.set`, in the launcher's words; when it ends, another one goes on and
-/// says again how far the clocks are apart. Does nothing unless the variable is set, the node is live and was handed
-/// the anchor of its host. It lives as long as its node's loop runs.
+/// Lets one of a host's services watch: the one that holds the lock on the file `clock-watch` of their shared run
+/// folder. It reports by the log and the event `clock.set`, in the launcher's words; when it ends, another one goes on
+/// and says again how far the clocks are apart. It does nothing unless the variable is set, the node is live and was
+/// handed the anchor of its host. It must live as long as the node's loop runs.
 class ClockWatch {
  public:
   ClockWatch(Node&, const std::filesystem::path& run_folder);

@@ -27,7 +27,7 @@ struct ConnectionFlags {
 /// Stands for the key folder that security::default_key_folder() says.
 inline constexpr char kDefaultKeys[] = "default";
 
-/// The flag of every command line that joins runs, in the words of CLI11: --secure alone stands for kDefaultKeys.
+/// Declares, for CLI11, the flag of every command line that joins runs: --secure alone stands for kDefaultKeys.
 inline constexpr char kSecureFlag[] = "--secure{default}";
 inline constexpr char kSecureHelp[] =
     "Join with certificates or not at all (or ROCI_SECURE); --secure=KEYS names the key folder (default: "
@@ -39,22 +39,22 @@ struct Connection {
   std::string dds;
   std::string run{};  // identity of the run, where it is known; else the first that is heard
   transport::TransportOptions transport;
-  std::filesystem::path network{};  ///< The network file that it was read from; empty: none.
-  std::filesystem::path keys{};     ///< The key folder of a secure run; empty: the run is plain.
+  std::filesystem::path network{};  ///< network file that it was read from; empty: none
+  std::filesystem::path keys{};     ///< key folder of a secure run; empty: the run is plain
 };
 
 using Environment = std::function<std::optional<std::string>(const char* name)>;
 Environment process_environment();
 
-/// `mission` is a mission folder, or empty. Throws mission::FileError for a bad file and
-/// std::invalid_argument for a bad flag or variable, and for a secure run with a vendor's own XML, which would say
-/// itself what is secured.
+/// Joins what the sources say; `mission` is a mission folder, or empty. Throws mission::FileError for a bad file,
+/// and std::invalid_argument for a bad flag or variable, or for a secure run with a vendor's own XML, which would
+/// decide itself what is secured.
 Connection resolve_connection(const ConnectionFlags&, const Environment&,
                               const std::filesystem::path& mission);
 
-/// What a transport is opened with as `service`: in a secure run with its credentials, which are checked here; a
-/// certificate that soon runs out is worth a line in the log. Throws security::KeyError, which is a
-/// std::invalid_argument, with the remedy.
+/// Returns the options with which `service` opens a transport, in a secure run with its credentials, which are
+/// checked here; a certificate that soon runs out writes a line in the log. Throws security::KeyError, which is
+/// a std::invalid_argument, with the remedy.
 transport::TransportOptions admitted(const Connection&, const std::string& service);
 
 /// Turns "a,b,c" into {"a", "b", "c"}; empty parts are left out.

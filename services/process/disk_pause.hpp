@@ -1,4 +1,4 @@
-// A process that waits for its disk is no hung one: its supervisor goes on hearing of it.
+// A process that waits for its disk does not hang: its supervisor goes on hearing of it.
 #pragma once
 
 #include <functional>
@@ -11,14 +11,14 @@ class Node;
 
 namespace roci::services::process {
 
-/// Counts one row of attempts to write.
+/// Waits between the attempts of one row to write, and shows meanwhile that the process lives.
 class DiskPause {
  public:
-  /// `notify` is called at least four times a second while it waits; null: nobody is to hear.
+  /// Calls `notify`, unless it is null, at least four times a second while it waits.
   explicit DiskPause(std::function<void()> notify = nullptr) : notify_(std::move(notify)) {}
 
-  /// The node goes on to beat, as a degraded service, so that nobody takes it for hung; and the handlers of its turns
-  /// (Node::on_turn) are called, its supervisor's among them.
+  /// Lets the node go on to beat, as a degraded service, so that nobody takes it for hung, and calls the handlers of
+  /// its turns (Node::on_turn), its supervisor's among them.
   explicit DiskPause(Node&);
 
   /// Waits: 0.1 s the first time, twice as long each further time, at most 1 s. Returns whether it was the first time

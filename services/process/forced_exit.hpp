@@ -7,7 +7,7 @@
 
 namespace roci::services::process {
 
-/// Nothing waits longer for a process to end that has nothing left to do.
+/// Bounds the wait for the end of a process that has nothing left to do.
 inline constexpr std::chrono::seconds kExitLimit{3};
 
 /// Ends this process with `code`, the one that it would have ended with, unless it has ended by itself within

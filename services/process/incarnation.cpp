@@ -3,7 +3,7 @@
 #include <fstream>
 #include <string>
 
-#include "services/process/durable_file.hpp"
+#include "core/durable/durable_file.hpp"
 
 namespace roci::services::process {
 
@@ -11,7 +11,7 @@ std::uint32_t next_incarnation(const std::filesystem::path& folder, const std::s
   const auto file = folder / (service + ".incarnation");
   std::uint32_t last = 0;
   std::ifstream(file) >> last;
-  replace_file(file, std::to_string(last + 1) + "\n");
+  durable::replace_file(file, std::to_string(last + 1) + "\n");
   return last + 1;
 }
 

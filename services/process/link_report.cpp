@@ -3,7 +3,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "services/topics.hpp"
+#include "services/topics/topics.hpp"
 
 namespace roci::services::process {
 

@@ -1,4 +1,4 @@
-// What each service of a run tells of the links that it heard over, in the run folder.
+// A link report is what each service of a run tells, in the run folder, of the links that it heard over.
 #pragma once
 
 #include <filesystem>
@@ -16,10 +16,10 @@ namespace roci::services::process {
 /// what is done about it (docs/links.md). Call it when the node's loop has ended.
 void write_link_report(const Node&, const std::filesystem::path& run_folder);
 
-/// The sum of all reports, by name of the link. What is no report is passed over.
+/// Returns the sum of all reports, by name of the link. Other files are ignored.
 std::map<std::string, link::Counts> read_link_reports(const std::filesystem::path& run_folder);
 
-/// The same as the member `links` of a summary (docs/formats.md).
+/// Returns the counts as the member `links` of a summary (docs/formats.md).
 nlohmann::json as_json(const std::map<std::string, link::Counts>&);
 
 }  // namespace roci::services::process

@@ -1,4 +1,5 @@
-// What a command line says of numbers that it cannot take, in words; CLI11's own checks print their whole range.
+// These checks say in words which numbers a command line cannot take; CLI11's own checks print their whole
+// range.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -9,7 +10,7 @@
 
 namespace roci::services::process {
 
-/// Nothing if the text is no finite number as a whole.
+/// Returns the number, or nothing if the whole text is no finite number.
 inline std::optional<double> number_in(const std::string& text) {
   double out = 0;
   const char* end = text.data() + text.size();
@@ -17,7 +18,7 @@ inline std::optional<double> number_in(const std::string& text) {
   return error == std::errc() && at == end && std::isfinite(out) ? std::optional(out) : std::nullopt;
 }
 
-/// Takes 0 and what is above it.
+/// Accepts 0 and numbers above it.
 inline CLI::Validator from_zero() {
   return {[](std::string& text) {
             const auto number = number_in(text);
@@ -26,7 +27,7 @@ inline CLI::Validator from_zero() {
           "FROM 0"};
 }
 
-/// Takes what is above 0.
+/// Accepts numbers above 0.
 inline CLI::Validator above_zero() {
   return {[](std::string& text) {
             const auto number = number_in(text);

@@ -1,4 +1,5 @@
-// Folders that another user of this host cannot turn against this one, also where everybody may write (/tmp).
+// Private folders are folders that another user of this host cannot turn against this one, also where
+// everybody may write (/tmp).
 #pragma once
 
 #include <filesystem>

@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "services/process/durable_file.hpp"
+#include "core/durable/durable_file.hpp"
 #include "services/process/private_folder.hpp"
 
 namespace roci::services::process {
@@ -90,7 +90,7 @@ fs::path runtime_folder() {
 
 PublishedRun::PublishedRun(const fs::path& folder, const RunRecord& run)
     : file_(folder / ("run-" + std::to_string(run.pid) + ".json")) {
-  replace_file(file_, to_json(run).dump(2) + "\n");
+  durable::replace_file(file_, to_json(run).dump(2) + "\n");
 }
 
 PublishedRun::~PublishedRun() {

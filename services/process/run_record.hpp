@@ -8,25 +8,26 @@
 
 namespace roci::services::process {
 
-/// This is the newest version of the record's schema (docs/formats.md) that this code reads; it writes this
-/// one. It rises when a key changes its meaning or goes; a record that names no version is of version 1.
+/// Numbers the newest version of the record's schema (docs/formats.md) that this code reads, and the one that
+/// it writes. It rises when a key changes its meaning or goes; a record that names no version is of version
+/// 1.
 inline constexpr int kRunRecordFormat = 1;
 
 /// Holds what a tool needs to join a run.
 struct RunRecord {
-  std::int64_t pid = 0;  ///< Is the launcher's.
+  std::int64_t pid = 0;  ///< the launcher's
   int domain = 0;
   std::filesystem::path mission;
   std::string scenario;
-  std::string dds;  ///< Is as given to --dds.
+  std::string dds;  ///< as given to --dds
   std::string address;
   std::vector<std::string> peers;
   std::filesystem::path run_folder;
-  std::string clock;  ///< "live" or "simulated".
+  std::string clock;  ///< "live" or "simulated"
   std::int64_t started_unix_us = 0;
   std::string run{};                // identity; empty in records of before there were any
-  std::filesystem::path keys{};     ///< Is the key folder of a secure run; empty: the run is plain.
-  std::filesystem::path network{};  ///< Is the network file that it was given; empty: none.
+  std::filesystem::path keys{};     ///< key folder of a secure run; empty: the run is plain
+  std::filesystem::path network{};  ///< network file that it was given; empty: none
 
   bool operator==(const RunRecord&) const = default;
 };
@@ -50,8 +51,8 @@ class PublishedRun {
 /// Returns the runs whose launcher lives, newest first. Records of dead ones are passed over.
 std::vector<RunRecord> find_runs(const std::filesystem::path& folder);
 
-/// Tells of those records of a newer format whose launcher may live, in words with a remedy; find_runs() does
-/// not read them.
+/// Describes, with a remedy, the records of a newer format whose launcher may live; find_runs() does not read
+/// them.
 std::vector<std::string> refused_runs(const std::filesystem::path& folder);
 
 }  // namespace roci::services::process

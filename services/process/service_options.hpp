@@ -17,13 +17,13 @@ struct ServiceOptions {
   RunSettings run;
   node::NodeOptions node;
   Connection connection;
-  TimeWatchSettings time{};        ///< Live: how its host's clock is compared with the mission clock.
-  std::string notify_socket;       ///< Its supervisor's, for WatchdogNotifier; empty: there is none.
-  bool count_incarnation = false;  ///< Nobody gave one: it is counted in the run folder.
+  TimeWatchSettings time{};        ///< live: how its host's clock is compared with the mission clock
+  std::string notify_socket;       ///< its supervisor's, for WatchdogNotifier; empty: there is none
+  bool count_incarnation = false;  ///< nobody gave one: it is counted in the run folder
 };
 
-/// Is thrown when the command line ends the program: by --help (code 0) or a mistake (code 2). what() is text
-/// for the user.
+/// Ends the program by its command line: by --help (code 0) or a mistake (code 2). what() is text for the
+/// user.
 class CommandLineEnd : public std::runtime_error {
  public:
   CommandLineEnd(int code, const std::string& text) : std::runtime_error(text), exit_code(code) {}

@@ -1,4 +1,4 @@
-// A service of somebody else as a program, and as what a rehearsal loads beside it (docs/sdk.md).
+// A user's own service stands as a program, and as a file that a rehearsal loads beside it (docs/sdk.md).
 #pragma once
 
 #include "roci_idl/contract.h"
@@ -7,16 +7,16 @@
 
 namespace roci::services::process {
 
-/// Says which service stands in a file that a rehearsal loads, and what it was built with. The file holds code of the
-/// SDK, too, so that who loads it must be of the same build: `contract` is ROCI_ANNOUNCEMENT,
-/// `compiler` the version of the compiler.
+/// Says which service a file holds that a rehearsal loads, and what it was built with. The file holds code of the
+/// SDK, too, so its loader must be of the same build: `contract` is ROCI_ANNOUNCEMENT, `compiler` the version of the
+/// compiler.
 struct ServiceProgram {
   const char* contract;
   const char* compiler;
   MakeService* make;
 };
 
-/// The name under which that file exports its ServiceProgram.
+/// Names the symbol under which that file exports its ServiceProgram.
 inline constexpr char kServiceProgramSymbol[] = "roci_service_program";
 
 }  // namespace roci::services::process

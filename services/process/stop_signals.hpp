@@ -19,8 +19,8 @@ class StopSignals {
   /// Calls `on_stop` for each signal from now on until this object ends or forget() is called; what an earlier watch()
   /// asked for is forgotten.
   void watch(std::function<void()> on_stop);
-  /// When it returns, no call is under way and none will come: what `on_stop` speaks of may end. A signal that comes
-  /// then changes nothing.
+  /// Guarantees, when it returns, that no call is under way and none will come, so that what `on_stop` refers to may
+  /// end. A later signal changes nothing.
   void forget();
 
  private:
@@ -33,7 +33,7 @@ class StopSignals {
   std::thread thread_;
 };
 
-/// Watches for as long as it lives; it is to end before what `on_stop` speaks of.
+/// Watches for as long as it lives; it must end before what `on_stop` refers to.
 class StopWatch {
  public:
   StopWatch(StopSignals& signals, std::function<void()> on_stop) : signals_(signals) {

@@ -1,4 +1,4 @@
-// How the hosts of a live mission compare their clocks.
+// This file reads how the hosts of a live mission compare their clocks.
 #pragma once
 
 #include <filesystem>

@@ -31,7 +31,7 @@ class PendingCalls {
 
   using SendCancel = std::function<void(const v1::SampleIdentity&, const std::string& owner)>;
 
-  /// `reachable` tells whether the topics of request and reply have both matched.
+  /// Takes `reachable`, which tells whether the topics of request and reply have both matched.
   PendingCalls(node::NodeImpl&, transport::Guid client, std::string procedure,
                std::function<bool()> reachable, SendCancel);
 
@@ -50,7 +50,7 @@ class PendingCalls {
     bool cancelled = false;
     int postponed = 0;  // to the next micro-step, since this one has no room for a further call
     temporal::Duration next_wait{0};
-    /// The light time to the owner and back, where a link joins it; else empty.
+    /// Holds the light time to the owner and back, where a link joins it; else nothing.
     std::optional<temporal::Duration> round_trip;
     node::TimerQueue::Id deadline = 0;
     node::TimerQueue::Id owner_check = 0;
@@ -58,7 +58,7 @@ class PendingCalls {
   };
   using Pendings = std::map<CallId, Pending>;
 
-  /// Live, and over a link, requests may be lost on their way.
+  /// Returns whether the request is repeated: live, and over a link, it may be lost on its way.
   bool repeats(const Pending&) const;
   temporal::Duration first_wait(const Pending&) const;
   void send(CallId number, Pending&);

@@ -26,11 +26,11 @@ class ReplyCache {
   /// Returns true if this request is to be handled, false if it is a duplicate; if it was answered before,
   /// the answer has gone out again.
   bool accept(const Id&);
-  /// Keeps the answer, of `bytes`, for who asks again. Of all answers the newest kCachedReplies are kept, and of these
-  /// no more than kCachedReplyBytes together (bounds/limits.hpp), but always the newest.
+  /// Keeps the answer, of `bytes`, for callers that ask again. Of all answers the newest kCachedReplies are kept, of
+  /// these no more than kCachedReplyBytes together (bounds/limits.hpp), but always the newest one.
   void answered(const Id&, SendAgain, std::size_t bytes = 0);
 
-  /// Requests that were taken and are not answered; PendingReply counts them.
+  /// Returns the number of requests that were taken and are not answered; PendingReply counts them.
   std::size_t open() const { return open_; }
   void begin() { ++open_; }
   void end() { --open_; }
@@ -56,13 +56,13 @@ class ReplyCache {
   std::deque<Id> order_;  // oldest first; bounds known_
 };
 
-/// Is the duty to answer one request, with the writer that does it.
+/// Holds the duty to answer one request, with the writer that does it.
 class PendingReply {
  public:
   /// Returns the size of the reply in bytes.
   using Write = std::function<std::size_t(const std::shared_ptr<const void>& reply)>;
 
-  /// `keeps`: the answer is kept for a caller that asks again.
+  /// Takes on a request. With `keeps`, the answer is kept for a caller that asks again.
   PendingReply(std::shared_ptr<ReplyCache> server, const v1::SampleIdentity& request, Write write,
                bool keeps = true)
       : server_(std::move(server)), request_(request), write_(std::move(write)), keeps_(keeps) {
@@ -73,7 +73,7 @@ class PendingReply {
   PendingReply& operator=(const PendingReply&) = delete;
 
   const v1::SampleIdentity& request() const { return request_; }
-  /// The first answer is sent and remembered; others are ignored.
+  /// Sends and remembers the first answer; others are ignored.
   void answer(std::shared_ptr<const void> reply);
   void on_cancel(std::function<void()> handler);
 

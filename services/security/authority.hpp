@@ -14,21 +14,22 @@
 
 namespace roci::services::security {
 
+/// Issues and revokes the certificates of one key folder, and writes what it did into its book (issued.hpp).
 class Authority {
  public:
   /// Makes an authority in the folder if there is none, for twenty years from `now_s` on (seconds since 1970). Throws
   /// KeyError, std::runtime_error.
   static Authority make(const std::filesystem::path& folder, std::int64_t now_s);
-  /// That of a folder. Throws KeyError where there is none.
+  /// Opens the authority of a folder. Throws KeyError where there is none.
   static Authority open(const std::filesystem::path& folder);
 
-  /// Knows from now on what the services of a mission are, and the launcher and the console. A service of that name
-  /// that is known already takes on what this mission says. Throws KeyError for a program that is not
-  /// ours and has no `rights:`.
+  /// Learns what the services of a mission are, and the launcher and the console. A service that is known already
+  /// by its name takes on what this mission says. Throws KeyError for a program that is not ours and has no
+  /// `rights:`.
   void learn(const mission::ServiceList&);
 
-  /// Gives the service a key, a certificate and permissions for each vendor, those before them stay valid until they
-  /// run out. Throws KeyError if it is not known.
+  /// Gives the service a key, a certificate and permissions for each vendor; earlier ones stay valid until they run
+  /// out. Throws KeyError if it is not known.
   void renew(const std::string& service, int days, std::int64_t now_s);
   /// Gives certificates to those known services that have none,
   /// and signs the permissions of all anew. Returns the new ones.
@@ -38,8 +39,8 @@ class Authority {
   void export_to(const std::filesystem::path& target, const std::string& host,
                  const std::vector<std::string>& services, int days, std::int64_t now_s);
 
-  /// Takes back all certificates of a service, or those of a host alone; returns how many. A participant that has
-  /// shaken hands already is not thrown out: the list is read at start.
+  /// Revokes all certificates of a service, or those of one host alone, and returns how many. A participant that
+  /// has completed its handshake is not excluded: the list is read at start.
   int revoke(const std::string& service, const std::string& host, std::int64_t now_s);
 
   const Issued& issued() const { return issued_; }

@@ -1,5 +1,6 @@
-// The two documents of DDS Security 1.1 (9.4.1): governance, which says how a domain is protected, and permissions,
-// which say who may write and read what. Both are XML that the permissions authority signs (authority.hpp).
+// Two documents of DDS Security 1.1 (9.4.1) are written here: governance, which says how a domain is protected, and
+// permissions, which say who may write and read what. Both are XML that the permissions authority signs
+// (authority.hpp).
 #pragma once
 
 #include <cstdint>
@@ -10,9 +11,9 @@
 
 namespace roci::services::security {
 
-/// Every domain and every topic: nobody joins without a certificate, discovery, liveliness, messages and submessages
-/// are encrypted, and each write and read needs a right. Payloads are not encrypted once more (data_protection_kind
-/// NONE): the two vendors do not understand each other's.
+/// Returns the governance of every domain and topic: nobody joins without a certificate; discovery, liveliness,
+/// messages and submessages are encrypted; each write and read needs a right. Payloads are not encrypted once more
+/// (data_protection_kind NONE), since the two vendors do not understand each other's.
 std::string governance();
 
 inline constexpr std::int64_t kDay = 24 * 60 * 60;  ///< seconds
@@ -23,8 +24,8 @@ struct Validity {
   std::int64_t end = 0;
 };
 
-/// What the service with the subject name `subject` (RFC 2253) may: the topics of its roles, inner ones in the
-/// partitions of `robot` alone (transport/scope.hpp). All else is denied.
+/// Returns the permissions of the service with the subject name `subject` (RFC 2253): the topics of its roles,
+/// inner ones in the partitions of `robot` alone (transport/scope.hpp). All else is denied.
 std::string permissions(const std::string& service, const std::string& subject, const std::set<Role>& roles,
                         const std::string& robot, const Validity&);
 

@@ -1,4 +1,4 @@
-// The book of the authority: which services it knows, and which certificates it has issued. It stands in
+// The authority's book lists which services it knows, and which certificates it has issued. It stands in
 // authority/issued.json of the key folder on the ground's machine.
 #pragma once
 
@@ -13,28 +13,30 @@
 
 namespace roci::services::security {
 
-/// What a service is; its permissions follow.
+/// Says what a service is; its permissions follow from that.
 struct KnownService {
   std::set<Role> roles;
-  std::string robot;  ///< Empty: none.
+  std::string robot;  ///< empty: none
   bool operator==(const KnownService&) const = default;
 };
 
+/// Describes a certificate that was issued.
 struct IssuedCertificate {
   std::string service;
   std::string vendor;
-  std::string host;  ///< That it was exported to; empty: the ground's own.
+  std::string host;  ///< host that it was exported to; empty: the ground's own
   std::string serial;
-  std::int64_t end = 0;      ///< In seconds since 1970.
-  std::int64_t revoked = 0;  ///< In seconds since 1970; 0: it holds.
+  std::int64_t end = 0;      ///< seconds since 1970
+  std::int64_t revoked = 0;  ///< seconds since 1970; 0: not revoked
 };
 
+/// Holds the whole book.
 struct Issued {
   std::map<std::string, KnownService> services;
   std::vector<IssuedCertificate> certificates;
 };
 
-/// Throws KeyError where the file is missing or damaged.
+/// Reads the book. Throws KeyError where the file is missing or damaged.
 Issued read_issued(const std::filesystem::path& file);
 void write_issued(const std::filesystem::path& file, const Issued&);
 

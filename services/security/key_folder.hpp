@@ -23,26 +23,27 @@ class KeyError : public std::invalid_argument {
   using std::invalid_argument::invalid_argument;
 };
 
-/// $ROCI_KEYS, else rocinante/keys in $XDG_CONFIG_HOME or ~/.config.
+/// Returns $ROCI_KEYS, else rocinante/keys in $XDG_CONFIG_HOME or ~/.config.
 std::filesystem::path default_key_folder();
 
-/// The names of the files, whether they are there or not.
+/// Returns the names of the files, whether they are there or not.
 transport::Credentials files_of(const std::filesystem::path& folder, const std::string& service,
                                 std::string_view vendor);
 
-/// The credentials of a service at a vendor at `now` (in seconds since 1970). Throws KeyError where a file is missing
-/// or damaged, others than its owner may read a private key, the certificate has run out, has been revoked, is not this
-/// authority's, or is another service's or vendor's.
+/// Returns the credentials of a service at a vendor at `now_s` (seconds since 1970). Throws KeyError where a file is
+/// missing or damaged, others than its owner may read a private key, or the certificate has run out, has been revoked,
+/// or is of another authority, service or vendor.
 transport::Credentials checked_credentials(const std::filesystem::path& folder, const std::string& service,
                                            std::string_view vendor, std::int64_t now_s);
 
-/// A certificate that runs out sooner than this is warned of.
+/// Says how many days before its end a certificate is warned of.
 inline constexpr int kWarnDays = 30;
 
-/// What to say at the start of a service whose certificate soon runs out; empty if it does not.
+/// Returns what to log at the start of a service whose certificate soon runs out, or an empty text if it does
+/// not.
 std::string expiry_warning(const transport::Credentials&, std::int64_t now_s);
 
-/// "2027-01-31 12:00 UTC".
+/// Formats a time as "2027-01-31 12:00 UTC".
 std::string date_text(std::int64_t unix_s);
 
 }  // namespace roci::services::security

@@ -4,7 +4,7 @@
 #include <array>
 #include <utility>
 
-#include "services/topics.hpp"
+#include "services/topics/topics.hpp"
 
 namespace roci::services::security {
 namespace {
@@ -29,7 +29,7 @@ constexpr std::pair<Role, std::string_view> kWords[] = {{service, "service"},
                                                         {console, "console"}};
 
 template <class T>
-TopicRights row(const Topic<T>& topic, Roles writers, Roles readers) {
+TopicRights row(const topics::Topic<T>& topic, Roles writers, Roles readers) {
   return {topic.name, topic.scope, std::move(writers), std::move(readers)};
 }
 

@@ -1,5 +1,6 @@
-// Who may write and who may read which topic in a secure run. The permissions that roci-keys signs are made from this
-// table, and a test holds it against what the services publish and subscribe (tests/unit/services/security).
+// This table says who may write and who may read which topic in a secure run. The permissions that roci-keys signs
+// are made from it, and a test compares it with what the services publish and subscribe
+// (tests/unit/services/security).
 #pragma once
 
 #include <optional>
@@ -13,29 +14,30 @@
 
 namespace roci::services::security {
 
-/// What a process does in a run. One may do several things.
+/// Says what a process does in a run; one process may have several roles.
 enum class Role {
-  service,       ///< Every process of the mission's list: it has a clock and a heartbeat.
-  master,        ///< It drives the simulated clock.
-  executive,     ///< It commands.
-  planner,       ///< It answers the executive with plans.
-  path_planner,  ///< It serves paths and the functions of traverses.
-  arm_planner,   ///< It serves motions of arms and their functions.
-  functions,     ///< It owns external functions of its own.
-  analyst,       ///< It looks at data products and asks for goals.
-  listener,      ///< It hears whatever the robot and its executive say, and says nothing but events.
-  owner,         ///< It executes commands and reports what it observes.
-  commander,     ///< It commands subsystems on behalf of an executive, beside being an owner.
-  world,         ///< It plays the ground's script beside being an owner: the simulator.
-  resolver,      ///< It answers decisions of running plans.
-  launcher,      ///< It watches a run.
-  console,       ///< It watches a run, and speaks for the ground.
+  service,       ///< every process of the mission's list: it has a clock and a heartbeat
+  master,        ///< drives the simulated clock
+  executive,     ///< commands
+  planner,       ///< answers the executive with plans
+  path_planner,  ///< serves paths and the functions of traverses
+  arm_planner,   ///< serves motions of arms and their functions
+  functions,     ///< owns external functions of its own
+  analyst,       ///< looks at data products and asks for goals
+  listener,      ///< hears whatever the robot and its executive say, and says nothing but events
+  owner,         ///< executes commands and reports what it observes
+  commander,     ///< commands subsystems on behalf of an executive, beside being an owner
+  world,         ///< plays the ground's script beside being an owner: the simulator
+  resolver,      ///< answers decisions of running plans
+  launcher,      ///< watches a run
+  console,       ///< watches a run, and speaks for the ground
 };
 
-/// The word of mission.yaml's `rights:` for a role, and back.
+/// Translate between a role and its word in mission.yaml's `rights:`.
 std::string_view word_of(Role);
 std::optional<Role> role_of(std::string_view word);
 
+/// Says which roles may write and read a topic.
 struct TopicRights {
   std::string topic;
   transport::Scope scope;
@@ -43,13 +45,13 @@ struct TopicRights {
   std::set<Role> readers;
 };
 
-/// A row for each topic of services/topics.hpp.
+/// A row for each topic of services/topics/topics.hpp.
 std::span<const TopicRights> topic_rights();
 
-/// What a program of ours does in a run; empty for a program that is not ours.
+/// Returns what a program of ours does in a run, or nothing for a program that is not ours.
 std::set<Role> roles_of_program(std::string_view program);
 
-/// The topics of a scope that somebody with these roles may write (or read), in the order of the table.
+/// Return the topics of a scope that these roles may write or read, in the order of the table.
 std::vector<std::string> writable(const std::set<Role>&, transport::Scope);
 std::vector<std::string> readable(const std::set<Role>&, transport::Scope);
 

@@ -1,6 +1,6 @@
-// What the authority needs of X.509 (RFC 5280) and S/MIME (RFC 8551), on OpenSSL. Keys are of the curve prime256v1, the
-// one that both DDS vendors take; signatures are ECDSA with SHA-256. All functions throw std::runtime_error with
-// OpenSSL's own words when it refuses.
+// This file has what the authority needs of X.509 (RFC 5280) and S/MIME (RFC 8551), on OpenSSL. Keys are of the curve
+// prime256v1, the one that both DDS vendors take; signatures are ECDSA with SHA-256. All functions throw
+// std::runtime_error with OpenSSL's own words when it refuses.
 #pragma once
 
 #include <openssl/evp.h>
@@ -17,6 +17,7 @@
 
 namespace roci::services::security {
 
+/// Lets a std::unique_ptr release an OpenSSL object by `free`.
 template <auto free>
 struct Free {
   void operator()(auto* thing) const { free(thing); }
@@ -25,35 +26,36 @@ using Key = std::unique_ptr<EVP_PKEY, Free<&EVP_PKEY_free>>;
 using Certificate = std::unique_ptr<X509, Free<&X509_free>>;
 using RevocationList = std::unique_ptr<X509_CRL, Free<&X509_CRL_free>>;
 
-/// A key with the certificate of its owner.
+/// Holds a key with the certificate of its owner.
 struct Signer {
   Key key;
   Certificate certificate;
 };
 
 Key make_key();
-/// An authority that certifies itself, with the common name `name`.
+/// Makes an authority that certifies itself, with the common name `name`.
 Signer make_authority(const std::string& name, const Validity&);
-/// The certificate of a service over the public half of `key`, with a serial number by chance.
+/// Makes the certificate of a service over the public half of `key`, with a random serial number.
 Certificate issue(const Signer& authority, const certificate::Subject&, const Key& key, const Validity&);
 
-/// A serial number as hexadecimal digits.
+/// Names a revoked certificate by its serial number, in hexadecimal digits.
 struct Revoked {
   std::string serial;
-  std::int64_t since = 0;  ///< In seconds since 1970.
+  std::int64_t since = 0;  ///< seconds since 1970
 };
-/// The list is valid for as long as its authority: both vendors refuse everybody under a list that has run out.
+/// Makes a list that is valid for as long as its authority: both vendors refuse everybody under a list that has
+/// run out.
 RevocationList make_revocation_list(const Signer& authority, const std::vector<Revoked>&);
 
-/// Signs a text: an S/MIME message of type text/plain, as DDS Security 1.1 (9.4.1.2) wants it.
+/// Signs a text as an S/MIME message of type text/plain, as DDS Security 1.1 (9.4.1.2) wants it.
 std::string signed_document(const Signer& authority, const std::string& text);
-/// The text of such a message, if one of `authority`'s made it; throws otherwise.
+/// Returns the text of such a message if `authority` signed it; throws otherwise.
 std::string verified_document(const std::string& message, const X509& authority);
 
 std::string to_pem(const Key&);
 std::string to_pem(const X509&);
 std::string to_pem(const X509_CRL&);
-/// They throw, too, if the file cannot be read.
+/// Read PEM files; they throw, too, if the file cannot be read.
 Key read_key(const std::filesystem::path&);
 Certificate read_certificate(const std::filesystem::path&);
 RevocationList read_revocation_list(const std::filesystem::path&);

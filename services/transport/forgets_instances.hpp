@@ -1,4 +1,4 @@
-// What a writer can do beside writing, if its vendor can: give back the memory of what is finished.
+// A writer may be able, if its vendor is, to give back the memory of finished instances.
 #pragma once
 
 #include <cstdint>
@@ -6,7 +6,7 @@
 
 namespace roci::services::transport {
 
-/// Is also a base of the writers of all three transports.
+/// Forgets finished instances; it is a second base of the writers of all three transports.
 class ForgetsInstances {
  public:
   virtual ~ForgetsInstances() = default;

@@ -1,4 +1,5 @@
-// Transports by the name of their vendor: each is a shared object that is opened when a program asks for it.
+// Transports are known by the name of their vendor: each is a shared object that is opened when a program
+// asks for it.
 #pragma once
 
 #include <memory>
@@ -16,7 +17,7 @@ namespace roci::services::transport {
 std::unique_ptr<Transport> open_transport(std::string_view vendor, const TransportOptions&);
 std::vector<std::string> installed_transports();
 
-/// The folders that are searched here, for the ROCI_PLUGIN_PATH of a program that stands elsewhere.
+/// Returns the folders that are searched here, for the ROCI_PLUGIN_PATH of a program that stands elsewhere.
 std::string plugin_path();
 
 }  // namespace roci::services::transport

@@ -1,4 +1,4 @@
-// What a network transport has refused before DDS read it, for whoever tells operators.
+// These are the datagrams that a network transport has refused before DDS read them.
 #pragma once
 
 #include <cstdint>
@@ -7,20 +7,20 @@
 
 namespace roci::services::transport {
 
-/// Counts those of one reason, since the transport was opened.
+/// Counts the datagrams that were refused for one reason since the transport was opened.
 struct RefusedDatagrams {
-  /// Is one of a few words, e.g. "stranger" (vendors/guard/verdict.hpp).
+  /// Is one of a few words, e.g. "stranger" (vendors/guard/datagram_admission.hpp).
   std::string reason;
   std::uint64_t count = 0;
-  /// Names the sender of the last one, as address and port; it is empty where nobody knows.
+  /// Names the sender of the last one, as address and port; it is empty where that is unknown.
   std::string last_source;
 };
 
-/// A Transport that a guard stands before is one of these, too.
+/// Tells what was refused. A Transport behind a guard implements this, too.
 class RefusesDatagrams {
  public:
   virtual ~RefusesDatagrams() = default;
-  /// Every reason with a count above zero. Any thread may ask.
+  /// Returns every reason with a count above zero. Any thread may ask.
   virtual std::vector<RefusedDatagrams> refused_datagrams() const = 0;
 };
 

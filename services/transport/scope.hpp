@@ -1,5 +1,6 @@
-// Who shares a topic: everyone of the run, one robot, or the team. The DDS partitions of an endpoint follow from
-// that and from the robot that its service belongs to; nobody else names a partition (tests/architecture).
+// The scope of a topic says who shares it: everyone of the run, one robot, or the team. The DDS partitions of an
+// endpoint follow from that and from the robot that its service belongs to; nobody else names a partition
+// (tests/architecture).
 #pragma once
 
 #include <string>
@@ -7,11 +8,11 @@
 
 namespace roci::services::transport {
 
-/// How far the samples of a topic reach.
+/// Says how far the samples of a topic reach.
 enum class Scope {
-  everyone,  ///< All participants of the domain share it: no partition.
-  team,      ///< What crosses robots and ground; a partition of its own keeps it apart from inner topics.
-  robot,     ///< Inner to one robot: its services share it, with those that belong to no robot.
+  everyone,  ///< all participants of the domain share it: no partition
+  team,      ///< crosses robots and ground; a partition of its own keeps it apart from inner topics
+  robot,     ///< inner to one robot: its services share it, with those that belong to no robot
 };
 
 /// Returns the partitions of the endpoints that a service of `robot` has on a topic (DDS 1.4, 2.2.3.13). A robot's

@@ -1,6 +1,6 @@
-// The vendor boundary: serialized samples in and out of named, typed topics. A DDS vendor is a shared object
-// that implements these classes (vendors/X); services link none of them. Types are known here by name and key
-// alone.
+// This is the vendor boundary: serialized samples go in and out of named, typed topics. A DDS vendor is a
+// shared object that implements these classes (vendors/X); services link none of them. Types are known here
+// by name and key alone.
 #pragma once
 
 #include <array>
@@ -20,7 +20,7 @@
 
 namespace roci::services::transport {
 
-/// A payload is a 4-byte encapsulation header and CDR, exactly as on the wire.
+/// Holds a 4-byte encapsulation header and CDR, exactly as on the wire.
 using Payload = std::vector<std::uint8_t>;
 using Guid = std::array<std::uint8_t, 16>;
 
@@ -28,36 +28,40 @@ using Guid = std::array<std::uint8_t, 16>;
 /// (no encapsulation) of a payload, which is a whole sample or, with key_only, a key-only payload; it returns
 /// false if the payload is malformed.
 struct TypeDescription {
-  /// E.g. "roci::v1::Goal". Matching is by name alone, so that a foreign type never matches.
+  /// Names the type, e.g. "roci::v1::Goal". Matching is by name alone, so a foreign type never matches.
   std::string name;
   bool keyed = false;
-  /// The largest serialized key takes at most 16 bytes, so that the key hash is the key itself.
+  /// Says whether the largest serialized key takes at most 16 bytes, so that the key hash is the key itself.
   bool key_fits_hash = false;
   bool (*serialized_key)(std::span<const std::uint8_t> payload, bool key_only, Payload& out) = nullptr;
 };
 
+/// Describes a writer or a reader that a transport is asked for.
 struct EndpointDescription {
   std::string topic;
   TypeDescription type;
   QosSettings qos;
-  /// They follow from the topic's scope (partitions_of in scope.hpp); empty: the partition "".
+  /// Lists the partitions, which follow from the topic's scope (partitions_of in scope.hpp); empty: the
+  /// partition "".
   std::vector<std::string> partitions{};
 };
 
-/// The payload of the last two, of keyed topics alone, holds at least the key (deserialize_key).
+/// Says what a sample tells. The last two kinds occur on keyed topics alone; their payload holds at least the
+/// key (deserialize_key).
 enum class SampleKind {
   data,
-  disposed,    ///< The writer disposed the instance.
-  no_writers,  ///< The instance has no live writer any more (DDS: NOT_ALIVE_NO_WRITERS).
+  disposed,    ///< the writer disposed the instance
+  no_writers,  ///< the instance has no live writer any more (DDS: NOT_ALIVE_NO_WRITERS)
 };
 
+/// Holds a sample as it came in.
 struct Sample {
   SampleKind kind = SampleKind::data;
   Payload payload;
   Guid writer{};
 };
 
-/// Vendor threads call these: implementations only enqueue, they never write and never block.
+/// Holds what vendor threads call: implementations only enqueue, they never write and never block.
 struct ReaderEvents {
   std::function<void(Sample&&)> on_sample;
   std::function<void(int current_writers)> on_matched;
@@ -65,13 +69,15 @@ struct ReaderEvents {
   std::function<void(const Guid& writer)> on_writer{};
 };
 
-/// A reliable writer reaches every reader that it counts: all that is written from then on arrives.
+/// Holds what vendor threads call of a writer. A reliable writer reaches every reader that it counts: all
+/// that is written from then on arrives.
 struct WriterEvents {
   std::function<void(int current_readers)> on_matched;
   /// Names each reader that the writer is matched with, before or after it is counted, at least once.
   std::function<void(const Guid& reader)> on_reader{};
 };
 
+/// Writes serialized samples on one topic.
 class Writer {
  public:
   virtual ~Writer() = default;
@@ -84,16 +90,18 @@ class Writer {
   virtual int matched_readers() const = 0;
 };
 
-/// Destroying a Reader (or a Writer) waits until no callback of it runs any more; never do it in a callback.
+/// Keeps a subscription open. Destroying a Reader (or a Writer) waits until none of its callbacks runs any
+/// more; never do it in a callback.
 class Reader {
  public:
   virtual ~Reader() = default;
   virtual int matched_writers() const = 0;
 };
 
-/// The files of DDS Security that a participant joins with (services/security/key_folder.hpp makes and checks them).
+/// Names the files of DDS Security that a participant joins with (services/security/key_folder.hpp makes and checks
+/// them).
 struct Credentials {
-  std::string service;  ///< Whose certificate it is.
+  std::string service;  ///< service of the certificate
   std::filesystem::path identity_authority;
   std::filesystem::path certificate;
   std::filesystem::path private_key;
@@ -103,52 +111,55 @@ struct Credentials {
   std::filesystem::path permissions;
 };
 
+/// Says how a participant joins a domain.
 struct TransportOptions {
   int domain = 0;
-  std::string participant{};  ///< Vendor tools show it.
-  /// The one interface address that is used; never any other is.
+  std::string participant{};  ///< vendor tools show it
+  /// Holds the one interface address that is used.
   std::string address = "127.0.0.1";
-  std::vector<std::string> peers = {"127.0.0.1"};  ///< These hosts are asked for participants, unicast.
-  /// The path of a vendor's own XML, which is used instead of the defaults if not empty.
+  std::vector<std::string> peers = {"127.0.0.1"};  ///< hosts that are asked for participants, unicast
+  /// Holds the path of a vendor's own XML, which replaces the defaults if not empty.
   std::string vendor_xml{};
-  /// With them nothing is said or heard in plain; a transport that cannot do that is not opened.
-  /// Without them: a plain run.
+  /// Makes the run secure: nothing is sent or heard in plain, and a transport that cannot do that is not
+  /// opened. Without credentials the run is plain.
   std::optional<Credentials> credentials{};
-  /// The USER_DATA of the participant; nothing stands for the announcement of this build,
-  /// which open_transport fills in.
+  /// Holds the USER_DATA of the participant; if empty, open_transport fills in the announcement of this
+  /// build.
   std::optional<std::string> announcement{};
 };
 
-/// What a participant of the domain says of itself.
+/// Holds what a participant of the domain says of itself.
 struct Participant {
-  std::string name{};          ///< Empty if it has none.
-  std::string announcement{};  ///< Its USER_DATA (announcement.hpp); empty if it has none.
+  std::string name{};          ///< empty if it has none
+  std::string announcement{};  ///< its USER_DATA (announcement.hpp); empty if it has none
 };
 
+/// Reports what a vendor, or the choice of one, refuses.
 class TransportError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// A transport is one DDS participant. Its writers and readers are destroyed before it. A topic has one type
-/// in it; asking for another is a TransportError, like everything that the vendor refuses.
+/// Holds one DDS participant. Its writers and readers must be destroyed before it. A topic has one type in
+/// it; asking for another throws TransportError, as does everything that the vendor refuses.
 class Transport {
  public:
   virtual ~Transport() = default;
   virtual std::string_view vendor() const = 0;
   virtual std::unique_ptr<Writer> create_writer(const EndpointDescription&, WriterEvents) = 0;
   virtual std::unique_ptr<Reader> create_reader(const EndpointDescription&, ReaderEvents) = 0;
-  /// What this participant announces.
+  /// Returns what this participant announces.
   virtual std::string announcement() const = 0;
-  /// The participant that a writer or a reader belongs to, also this one and also when it has left. It is known before
-  /// its first sample arrives, as long as its USER_DATA does; nothing if it was not discovered. Any thread may ask.
+  /// Returns the participant that a writer or a reader belongs to, including this one, even after it has left. It is
+  /// known before its first sample arrives, provided that its USER_DATA is. Returns nothing if it was not discovered.
+  /// Any thread may ask.
   virtual std::optional<Participant> participant_of(const Guid&) = 0;
-  /// Whether the participant of a writer may call itself `sender`: with credentials it must have that service's
-  /// certificate, in a plain run anybody may. Any thread may ask.
+  /// Returns whether the participant of a writer may call itself `sender`: with credentials it must have that
+  /// service's certificate, in a plain run anybody may. Any thread may ask.
   virtual bool speaks_as(const Guid& writer, std::string_view sender) const = 0;
 };
 
-/// Each plug-in exports this under the name roci_create_transport. It throws TransportError.
+/// Opens a transport; each plug-in exports it under the name roci_create_transport. It throws TransportError.
 using CreateTransport = std::unique_ptr<Transport>(const TransportOptions&);
 inline constexpr char kCreateTransportSymbol[] = "roci_create_transport";
 

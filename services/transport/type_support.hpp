@@ -1,5 +1,5 @@
-// From a generated struct of idl/ to bytes and back, and to the description that a transport needs. Only Fast
-// CDR.
+// This file turns a generated struct of idl/ into bytes and back, and into the description that a transport
+// needs. It needs Fast CDR alone.
 //
 // The bytes are a 4-byte encapsulation header and plain CDR in this machine's byte order; both byte orders
 // are read. Equal values give equal bytes (padding is zero), so that samples can be hashed and compared.
@@ -40,7 +40,7 @@ void append_key(const T& value, std::size_t bound, Cdr::Endianness order, Payloa
   out.resize(start + cdr.getSerializedDataLength());
 }
 
-/// Reads what is there, as far as it goes; false when the payload ends early or makes no sense.
+/// Reads as much as is there. Returns false when the payload ends early or makes no sense.
 template <class T>
 bool read_prefix(std::span<const std::uint8_t> payload, T& value, Cdr::Endianness& order) {
   try {
@@ -78,7 +78,8 @@ bool serialized_key(std::span<const std::uint8_t> payload, bool key_only, Payloa
 
 }  // namespace detail
 
-/// `type_name` is the IDL name, e.g. "roci::v1::Goal". The struct's @key members must come first in it.
+/// Describes a type; `type_name` is the IDL name, e.g. "roci::v1::Goal". The struct's @key members must come
+/// first in it.
 template <class T>
 TypeDescription describe_type(std::string type_name) {
   TypeDescription description{std::move(type_name), T::isKeyDefined(),
@@ -87,6 +88,7 @@ TypeDescription describe_type(std::string type_name) {
   return description;
 }
 
+/// Returns a value as a payload.
 template <class T>
 Payload serialize(const T& value) {
   Payload payload(kEncapsulationSize + T::getCdrSerializedSize(value));

@@ -1,4 +1,4 @@
-// The instances that a Fast DDS writer is to forget, until it may. Pure.
+// Due instances are those that a Fast DDS writer is to forget, until it may. This is pure.
 #pragma once
 
 #include <cstddef>
@@ -12,9 +12,10 @@
 
 namespace roci::services::vendors {
 
-/// When a change that unregisters an instance is confirmed by all, Fast DDS 2.9 walks its history down from the newest
-/// change, takes out all that the instance has, and goes on at the same place of what is left (docs/dds.md, report 7).
-/// This class says what to write so that the walk ends and misses nothing:
+/// Says what to write so that finished instances go. When a change that unregisters an instance is confirmed by all,
+/// Fast DDS 2.9 walks its history down from the newest change, takes out all that the instance has, and goes on at the
+/// same place of what is left (docs/dds.md, report 7). This class says what to write so that the walk ends and misses
+/// nothing:
 /// - only while every reader has confirmed everything, so that no change but what follows is walked;
 /// - one instance is kept for ever: its changes are older than all that is walked, and the walk ends at them;
 /// - of several instances with older changes, the newest is followed by as many changes of the kept one as an
@@ -35,12 +36,13 @@ class DueInstances {
     int times = 0;
   };
 
-  /// `depth`: so many changes of an instance stay that all readers have confirmed; 0: none.
+  /// Takes how many changes of an instance stay that all readers have confirmed (`depth`; 0: none).
   explicit DueInstances(int depth) : depth_(depth) {}
 
   /// Takes in that the history has a further change of the instance, which is to be forgotten no longer.
   void changed(const Key&);
-  /// Takes in that the instance is to be forgotten. False: it is the one that is kept, and must be disposed now.
+  /// Takes in that the instance is to be forgotten. Returns false if it is the one that is kept, which must be
+  /// disposed now.
   bool forget(Instance);
   std::size_t waiting() const { return due_.size(); }
   /// Returns what to write now that everything is confirmed; nothing of it waits any longer.

@@ -1,6 +1,6 @@
-// The instances of a keyed topic that are alive at one reader, and who writes them. Every vendor reports the
-// end of an instance in its own way, and some without its key; readers ask this table, so that all of them
-// report alike.
+// The instance table has the instances of a keyed topic that are alive at one reader, and their writers.
+// Every vendor reports the end of an instance in its own way, some without its key; readers ask this table,
+// so that all of them report alike.
 #pragma once
 
 #include <optional>
@@ -12,29 +12,31 @@
 
 namespace roci::services::vendors {
 
-/// 4-byte big-endian encapsulation header and the serialized key.
+/// Returns a 4-byte big-endian encapsulation header and the serialized key.
 transport::Payload key_only_payload(std::span<const std::uint8_t> serialized_key);
 
+/// Tells when an instance has ended, and its key.
 class InstanceTable {
  public:
   using Key = std::string;  ///< whatever identifies the instance at the vendor: its key or the hash of it
 
-  /// Notes that `writer` wrote the instance. False: the instance is new and must be introduced.
+  /// Notes that `writer` wrote the instance. Returns false if the instance is new and must be introduced.
   bool wrote(const Key&, const transport::Guid& writer);
-  /// With kInstances alive a new one is not entered: its samples are read, and its end is not told.
+  /// Enters a new instance. With kInstances alive it is not entered: its samples are read, but its end is not
+  /// reported.
   void introduce(const Key&, const transport::Guid& writer, transport::Payload key_payload);
 
-  /// So many instances of a topic are followed: every goal, timeline and step that the parts above
-  /// keep, several times over.
+  /// Bounds the instances of a topic that are followed: several times every goal, timeline and step that the
+  /// parts above keep.
   static constexpr std::size_t kInstances = 65'536;
-  /// So many writers of one instance are: a pair of executives, and their earlier starts.
+  /// Bounds the writers of one instance that are followed: a pair of executives, and their earlier starts.
   static constexpr std::size_t kWriters = 256;
 
-  /// The instance was disposed or lost its last writer: its key-only payload; nothing if it was not alive
-  /// here.
+  /// Takes in that the instance was disposed or lost its last writer, and returns its key-only payload, or
+  /// nothing if it was not alive here.
   std::optional<transport::Payload> ended(const Key&);
 
-  /// Key-only payloads of the instances that nobody writes any more, now that `writer` has gone.
+  /// Returns the key-only payloads of the instances that nobody writes any more, now that `writer` has gone.
   std::vector<transport::Payload> writer_left(const transport::Guid& writer);
 
  private:

@@ -1,4 +1,4 @@
-// The participants of a domain that a transport has met, with what each announced.
+// The participant table has the participants of a domain that a transport has met, with what each announced.
 #pragma once
 
 #include <array>
@@ -12,11 +12,12 @@
 
 namespace roci::services::vendors {
 
-/// Any thread may call all of it. Participants that have left are kept, because their samples may still be under way;
-/// of all that were met the newest kKnownParticipants are.
+/// Keeps the newest kKnownParticipants that were met, also those that have left, because their samples may still be
+/// under way. Any thread may call it.
 class ParticipantTable {
  public:
-  /// `guid` is that of the participant or of one of its writers or readers: they share its first 12 bytes.
+  /// Adds a participant; `guid` is its own or that of one of its writers or readers, which share its first 12
+  /// bytes.
   void add(const transport::Guid& guid, transport::Participant);
   std::optional<transport::Participant> find(const transport::Guid&) const;
 

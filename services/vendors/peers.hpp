@@ -1,5 +1,4 @@
-// What the network transports share: whom they ask for participants, and how fast they notice that one has
-// died.
+// The network transports share whom they ask for participants, and how fast they notice that one has died.
 #pragma once
 
 #include <string>
@@ -13,7 +12,8 @@ inline constexpr int kLeaseSeconds = 3;  ///< a killed participant is noticed af
 
 bool is_loopback(const std::string& address);
 
-/// options.peers and options.address itself, each once. On a network the loopback default is left out.
+/// Returns options.peers and options.address itself, each once. On a network the loopback default is left
+/// out.
 std::vector<std::string> peers_of(const transport::TransportOptions&);
 
 /// Throws TransportError when no running interface of this host has options.address, or it or a peer is no

@@ -1,5 +1,5 @@
-// The writers that a reader has met, by the handles that its vendor gives them: the end of an instance may come after
-// its writer has gone.
+// This table has the writers that a reader has met, by the handles that its vendor gives them: the end of an instance
+// may come after its writer has gone.
 #pragma once
 
 #include <cstdint>
@@ -11,10 +11,10 @@
 
 namespace roci::services::vendors {
 
-/// Knows all writers that are matched, and of those that left the newest kDeparted: writers come and go without end.
+/// Knows all matched writers, and of those that left the newest kDeparted, since writers come and go without end.
 class WriterGuids {
  public:
-  using Handle = std::uint64_t;  ///< The vendor's.
+  using Handle = std::uint64_t;  ///< the vendor's
 
   static constexpr std::size_t kDeparted = 256;
 

@@ -1,5 +1,5 @@
-// What every owner of external functions does on the wire (R35-R39): the offer, and one outcome for each
-// tuple of each batch.
+// This is what every owner of external functions does on the wire (R35-R39): the offer, and one outcome for
+// each tuple of each batch.
 #pragma once
 
 #include <cstdint>
@@ -15,6 +15,7 @@
 
 namespace roci::services::wire {
 
+/// Describes an external function that an owner offers.
 struct OwnedFunction {
   std::string name;
   std::vector<std::string> parameter_types;
@@ -28,28 +29,30 @@ struct OwnedFunction {
   bool offers(v1::FunctionAccuracy accuracy) const;
 };
 
+/// Says what an evaluation of one tuple came to.
 struct FunctionResult {
   v1::FunctionOutcome outcome = v1::FUNCTION_FAILED;
-  double number = 0;  ///< With FUNCTION_VALUE, in the function's unit.
+  double number = 0;  ///< with FUNCTION_VALUE: in the function's unit
 };
 
-/// It is called with one of the owned functions, as many objects as that has parameters,
-/// and an accuracy that it offers.
+/// Evaluates one tuple: it gets one of the owned functions, as many objects as that has parameters, and an
+/// accuracy that it offers.
 using Evaluator = std::function<FunctionResult(const OwnedFunction&, std::span<const v1::PlanObject* const>,
                                                v1::FunctionAccuracy)>;
 
 v1::FunctionOffer function_offer(const std::string& module_name, const std::string& owner,
                                  std::uint64_t model_version, const std::vector<OwnedFunction>& functions);
 
-/// Answers every tuple; unknown functions, wrong arities and indices beyond the request's objects are told as
-/// such without asking `evaluate`. Who asks for an accuracy that a function does not offer is given the exact value,
-/// and the reply says so. Once stopped, the rest is FUNCTION_FAILED.
+/// Answers every tuple; unknown functions, wrong arities and indices beyond the request's objects are reported as
+/// such without asking `evaluate`. Where a function does not offer the accuracy asked for, the reply has the exact
+/// value and says so. Once stopped, the rest is FUNCTION_FAILED.
 v1::FunctionReply answer_batches(const v1::FunctionRequest& request, std::uint64_t model_version,
                                  const std::vector<OwnedFunction>& functions, const Evaluator& evaluate,
                                  const std::stop_token& stop);
 
-/// Says by object, in the owner's words, why tuples with it have no value: "place-1" → "the rover cannot stand there".
-/// They travel in the reply's remote_message, a line "OBJECT: WORDS" each; control characters in them become blanks.
+/// Write and read, by object, why tuples with it have no value, in the owner's words: "place-1" → "the rover cannot
+/// stand there". They travel in the reply's remote_message, a line "OBJECT: WORDS" each; control characters in them
+/// become blanks.
 void put_words(v1::FunctionReply& reply, const std::map<std::string, std::string>& words);
 std::map<std::string, std::string> words_of(const v1::FunctionReply& reply);
 

@@ -1,4 +1,4 @@
-// Between core/temporal's values and plans and their wire form (idl/plan.idl): one translation for every
+// This file translates between core/temporal's values and plans and their wire form (idl/plan.idl), for every
 // service.
 #pragma once
 
@@ -13,7 +13,7 @@
 
 namespace roci::services::wire {
 
-/// It is thrown for a sample that no conforming sender sends, e.g. an enumerator out of range, or a plan or a condition
+/// Reports a sample that no conforming sender sends, e.g. with an enumerator out of range, or a plan or a condition
 /// beyond the bounds of core/temporal/plan_bounds.hpp.
 class WireError : public std::runtime_error {
  public:

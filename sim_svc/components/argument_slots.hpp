@@ -1,4 +1,4 @@
-// Words of settings in which braces name arguments of a command: trench_{site}.
+// This file fills words of settings in which braces name arguments of a command: trench_{site}.
 #pragma once
 
 #include <map>

@@ -1,5 +1,5 @@
-// An arm between named poses: what a command of it means and what it says, whatever its motions are; and the simple
-// one (type `arm`), whose joints lag behind the trajectory.
+// This is an arm between named poses: what its commands mean and what it reports, whatever its motions are; and the
+// simple one (type `arm`), whose joints lag behind the trajectory.
 #pragma once
 
 #include <optional>
@@ -23,9 +23,9 @@ struct ArmSettings {
   std::vector<double> start_joints;  ///< rad or m, one per joint
 };
 
-/// Is an arm: move (from, to) asks for a trajectory between named poses, with the load that it believes to hold, and
-/// tracks it; a stop on the way leaves it at the stop pose, and so does a motion that cannot be ended (`arm-stalled`).
-/// It does not move while the body drives.
+/// Simulates an arm: move (from, to) asks for a trajectory between named poses, with the load that it believes to
+/// hold, and tracks it; a stop on the way leaves it at the stop pose, and so does a motion that cannot be ended
+/// (`arm-stalled`). It does not move while the body drives.
 class Arm : public world::Component, public world::Manipulator, public world::BodyInterlock {
  public:
   Arm(ArmSettings, world::RandomStream noise);
@@ -60,7 +60,7 @@ class Arm : public world::Component, public world::Manipulator, public world::Bo
                          const world::ComponentSet&);
   const std::vector<double>& joints() const { return joints_; }
   const std::optional<ArmTrace>& trace() const { return trace_; }
-  /// Lets the running motion be another one from now on.
+  /// Replaces the running motion from now on.
   void retrace(ArmTrace trace) { trace_ = std::move(trace); }
   world::RandomStream& noise() { return noise_; }
 

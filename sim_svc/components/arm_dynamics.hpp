@@ -10,7 +10,7 @@
 
 namespace roci::sim::components {
 
-/// Is square, with a row for each joint.
+/// Holds a square matrix with a row for each joint.
 using JointMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor,
                                   kinematics::kMaxJoints, kinematics::kMaxJoints>;
 
@@ -20,7 +20,7 @@ struct MotionEquation {
   kinematics::JointVector bias;  ///< of gravity, centrifugal and Coriolis forces, N·m or N
 };
 
-/// Is an arm with its load under gravity. It is immutable; friction is not its business.
+/// Describes an arm with its load under gravity. It is immutable; friction is not its business.
 class ArmDynamics {
  public:
   /// `load` is given in the frame of the tool. `rotor_inertia` is that of each joint's motor as the joint feels it; it

@@ -1,5 +1,5 @@
-// The motion of the simple arm (type `arm`): joints that lag behind the trajectory, and what every arm's motion is as
-// the simulator keeps it, a trace.
+// This is the motion of the simple arm (type `arm`), whose joints lag behind the trajectory, and what the simulator
+// keeps of every arm's motion, a trace.
 #pragma once
 
 #include <string>
@@ -25,7 +25,7 @@ struct ArmSample {
   double energy_j = 0;  ///< used since the start of the motion
 };
 
-/// Is a whole motion as it happens if nobody interrupts it; sample i holds at start + i * kArmStep.
+/// Describes a whole motion as it happens if nobody interrupts it; sample i holds at start + i * kArmStep.
 struct ArmTrace {
   temporal::Time start{};
   std::vector<ArmSample> samples;

@@ -1,4 +1,4 @@
-// How an arm's settings are read from the files of a mission.
+// This file reads an arm's settings from the files of a mission.
 #pragma once
 
 #include "sim_svc/components/arm.hpp"

@@ -1,4 +1,5 @@
-// A camera that takes images of the ground ahead; the images are data products on board until a radio sends them.
+// This is a camera that takes images of the ground ahead; the images are data products on board until a radio
+// sends them.
 #pragma once
 
 #include <map>
@@ -21,14 +22,14 @@ struct CameraSettings {
   double image_bytes = 1400000;
   double bytes_noise = 0.03;
   View view;
-  double panorama_every_s = 0;  ///< a panorama is due so often; 0: never
-  int panorama_views = 6;       ///< of which it is made, evenly around; 1 … kMostViews
+  double panorama_every_s = 0;  ///< seconds between panoramas; 0: none
+  int panorama_views = 6;       ///< views of a panorama, evenly around; 1 … kMostViews
 };
 
 inline constexpr int kMostViews = 16;
 
-/// Is a camera on a body that stands on the ground: image (image) takes a picture of what lies ahead, which
-/// is on board when it is done. The body stands still meanwhile. Of its own accord it takes a panorama at intervals, as
+/// Simulates a camera on a body that stands on the ground: image (image) takes a picture of what lies ahead, which is
+/// on board when it is done. The body stands still meanwhile. Of its own accord it takes a panorama at intervals, as
 /// soon as the body stands and it takes no other picture: its views (Image::kind `panorama`) show what lies all around,
 /// cost no energy, and are not kept.
 class Camera final : public world::Component, public world::BodyInterlock {

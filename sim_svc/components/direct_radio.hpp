@@ -1,5 +1,5 @@
-// A radio that speaks to Earth without a relay: it is warmed and pointed, waits for contact,
-// and sends the data on board.
+// This is a radio that speaks to Earth without a relay: it is warmed and pointed, waits for contact, and
+// sends the data on board.
 #pragma once
 
 #include <cstdint>
@@ -31,16 +31,16 @@ struct DirectRadioSettings {
   double waste_share = 0.3;  ///< of what it draws, left as heat in its zone
   double duration_noise = 0.05;
   double duration_factor = 1;
-  /// A downlink that no schedule names lasts so long at most; 0: until its step must end.
+  /// Bounds a downlink that no schedule names; 0: until its step must end.
   double session_s = 0;
   double light_time_s = 0;  ///< after which the last byte of a product is received
 };
 
-/// Is a radio to Earth. prepare warms and points it. send waits for contact and then sends stored products, each once
-/// and whole: the critical ones first, then those that the newest schedule names for this downlink, in its order, with
-/// which it ends. What no schedule names goes by tier, then by age. receive needs contact for receive_s. A task that
-/// has no contact until its step must end fails `no-contact` (`too-cold`: its zone never became warm); `contact-lost`
-/// is one whose window closed, and `out-of-time` one whose step ended, before all that was to be sent was. What was
+/// Simulates a radio to Earth. prepare warms and points it. send waits for contact and then sends stored products,
+/// each once and whole: the critical ones first, then those that the newest schedule names for this downlink, in its
+/// order, and then it ends. Without a schedule products go by tier, then by age. receive needs contact for receive_s.
+/// A task fails `too-cold` if its zone never becomes warm, `no-contact` if it has no contact until its step must end,
+/// `contact-lost` if its window closes too early, and `out-of-time` if its step ends before all was sent. What was
 /// sent by then stays sent.
 class DirectRadio final : public world::Component {
  public:
@@ -68,7 +68,7 @@ class DirectRadio final : public world::Component {
   void surroundings_changed(temporal::Time now, world::Surroundings&) override;
   void settle(temporal::Time now, world::Body&) override;
 
-  /// Data arrive, whatever the radio does meanwhile.
+  /// Lets data arrive, whatever the radio does meanwhile.
   std::optional<temporal::Time> next_routine() const override;
   void run_routine(temporal::Time now, bool able, world::Surroundings&) override;
 

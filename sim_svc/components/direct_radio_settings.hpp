@@ -1,4 +1,4 @@
-// The settings of a direct radio in mission and scenario files.
+// This file reads the settings of a direct radio in mission and scenario files.
 #pragma once
 #include "sim_svc/components/direct_radio.hpp"
 #include "sim_svc/setup/settings.hpp"

@@ -1,4 +1,4 @@
-// Wheels under a body: a drive along way-points over the true ground, which the map does not show in full.
+// This is a drive on wheels along way-points over the true ground, which the map does not show in full.
 #pragma once
 
 #include <map>
@@ -21,11 +21,11 @@ struct DriveSettings {
   double look_s = 20;                    ///< a look at such a rock takes this long
   bool own_map = false;                  ///< what it finds goes on its robot's own map alone
   std::string planner = "pathplan_svc";  ///< the service that is asked for paths
-  /// It names where the body stands at the start and after a stop on the way.
+  /// Names where the body stands at the start and after a stop on the way.
   std::string stop_place = "here";
 };
 
-/// A way that a command brings has at most so many points.
+/// Bounds the points of a way that a command brings.
 inline constexpr std::size_t kGivenPoints = 64;
 
 /// Drives on wheels: drive (to, x, y) asks for a path and follows it; drive (to, way) drives over the points of that
@@ -55,7 +55,7 @@ class Drive final : public world::Component, public world::Mobility {
   bool waits_for_answer() const override { return busy() && !trace_ && !looks_until_; }
   world::Ending answer(const world::Answer&, temporal::Time now, world::Surroundings&) override;
   void settle(temporal::Time now, world::Body&) override;
-  /// The rest of a running drive is worked out anew.
+  /// Computes the rest of a running drive anew.
   void ground_changed(temporal::Time now, world::Surroundings&) override;
 
   double energy_j(temporal::Time from, temporal::Time to) const override;

@@ -1,4 +1,4 @@
-// How the simulated wheels move over the true ground, step by step.
+// This file says how the simulated wheels move over the true ground, step by step.
 #pragma once
 #include <cstddef>
 #include <optional>
@@ -15,8 +15,8 @@ namespace roci::sim::components {
 
 /// Holds the true wheels and ground, which the estimators' models only resemble.
 struct DriveParameters {
-  double radius_m = 0.6;           ///< is that of the disc that the rover covers
-  double wheel_speed_m_s = 0.105;  ///< holds on flat ground, before slip
+  double radius_m = 0.6;           ///< radius of the disc that the rover covers
+  double wheel_speed_m_s = 0.105;  ///< on flat ground, before slip
   double turn_rate_rad_s = 0.19;
   double slip = 0.04;           ///< mean on flat ground, as a share of the wheel speed
   double uphill_slip = 2.5;     ///< added slip is this times sin²(pitch)
@@ -35,13 +35,13 @@ struct DriveParameters {
   double wheel_diameter_m = 0.3;  ///< above 0
 };
 
-/// Returns what of the parameters counts on soft soil.
+/// Returns the parameters that count on soft soil.
 inline WheeledVehicle vehicle_of(const DriveParameters& p) {
   return {p.weight_n, p.wheels, p.wheel_width_m, p.wheel_diameter_m};
 }
 
-/// `bogged`: soil did not bear the body, which digs itself in. `no_go`:
-/// its sensor says that another one must not follow.
+/// Says how a drive ended: `bogged` if soil did not bear the body, which dug itself in; `no_go` if its sensor
+/// says that another vehicle must not follow.
 enum class DriveEnd { arrived, blocked, stuck, collision, bogged, no_go };
 
 /// Holds where the body is at one time of a drive.
@@ -51,14 +51,14 @@ struct DriveSample {
   std::size_t next_waypoint = 0;  ///< index into the way-points
 };
 
-/// Is a whole drive as it happens if nobody interrupts it. Sample i holds at start + i * kDriveStep; the last
-/// one at `end`.
+/// Describes a whole drive as it happens if nobody interrupts it. Sample i holds at start + i * kDriveStep;
+/// the last one at `end`.
 struct DriveTrace {
   temporal::Time start{};
   temporal::Time end{};
   std::vector<DriveSample> samples;
   DriveEnd outcome = DriveEnd::arrived;
-  std::optional<std::size_t> seen_rock;  ///< is with `blocked` an index into Ground::hidden_rocks
+  std::optional<std::size_t> seen_rock;  ///< with `blocked`: index into Ground::hidden_rocks
   double peak_power_w = 0;
   double deepest_sinkage_m = 0;  ///< in soil
   double most_soil_slip = 0;

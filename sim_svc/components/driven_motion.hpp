@@ -1,6 +1,6 @@
-// How an arm with motors, inertia and friction moves along a trajectory (type `dynamic_arm`): a controller that
-// believes one load drives a rigid body that has another, so that durations and energies are what comes of it, not what
-// was planned. It is integrated whole, in steps of its own, so that nothing depends on how time is sliced.
+// An arm with motors, inertia and friction (type `dynamic_arm`) moves along a trajectory by a controller that believes
+// in one load while the rigid body has another, so that durations and energies follow from the motion and not from the
+// plan. The motion is integrated whole, in steps of its own, so that nothing depends on how time is sliced.
 #pragma once
 
 #include <cstddef>
@@ -42,7 +42,7 @@ struct JointsWear {
   kinematics::JointVector growth;  ///< of the friction for each rad or m of travel
 };
 
-/// Is the state of a motion at one time.
+/// Holds the state of a motion at one time.
 struct DrivenMoment {
   kinematics::JointVector position;
   kinematics::JointVector rate;
@@ -55,7 +55,8 @@ struct DrivenMoment {
   double energy_j = 0;
 };
 
-/// Is a whole motion as it happens if nobody interrupts it; moment i holds at i * kArmStep after its start.
+/// Describes a whole motion as it happens if nobody interrupts it; moment i holds at i * kArmStep after its
+/// start.
 ///
 /// The controller follows the course by PID with a feed-forward from the inverse dynamics of the believed arm (computed
 /// torque in its per-joint form; Siciliano et al., Robotics, 2009, section 8.5), all with saturating motors; it waits

@@ -1,4 +1,4 @@
-// An arm with dynamics of its own (type `dynamic_arm`): what its moves take is not what was planned.
+// This is an arm with dynamics of its own (type `dynamic_arm`): what its moves take is not what was planned.
 #pragma once
 
 #include <optional>
@@ -15,18 +15,19 @@ struct DynamicArmSettings {
   JointsWear wear;  ///< at the start
 };
 
-/// Is an arm whose motions are worked out by its motors, its inertia, its friction, and the load that it truly holds
-/// (PayloadHolder), while its controller knows of the told load alone. Joints wear by use and by mishap (JointWear).
+/// Simulates an arm whose motions are worked out by its motors, its inertia, its friction, and the load that it
+/// truly holds (PayloadHolder), while its controller knows of the told load alone. Joints wear by use and by mishap
+/// (JointWear).
 class DynamicArm final : public Arm {
  public:
   DynamicArm(DynamicArmSettings, world::RandomStream noise);
 
   std::optional<std::string> spared_from(const world::Mishap&) const override;
-  /// The rest of a running motion is worked out anew.
+  /// Computes the rest of a running motion anew.
   void suffer(const world::Mishap&, temporal::Time now, world::Surroundings&) override;
   world::Ending finish(world::Surroundings&) override;
   void halt(temporal::Time now, world::Surroundings&) override;
-  /// Holds the wear, too.
+  /// Returns the wear, too.
   world::Memory memory() const override;
   void restore(const world::Memory&) override;
 

@@ -1,4 +1,4 @@
-// How a dynamic arm's settings are read from the files of a mission.
+// This file reads a dynamic arm's settings from the files of a mission.
 #pragma once
 
 #include "sim_svc/components/dynamic_arm.hpp"

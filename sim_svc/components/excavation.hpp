@@ -1,5 +1,5 @@
-// Cutting a trench into ice as hard as rock: how deep it is follows from the energy that the
-// cutter has brought into it.
+// A trench is cut into ice as hard as rock: its depth follows from the energy that the cutter has brought
+// into the ice.
 #pragma once
 
 #include <optional>
@@ -11,7 +11,7 @@ namespace roci::sim::components {
 
 /// Describes the ice of one site.
 struct Ice {
-  /// The energy that cuts a unit of its volume (Teale, "The concept of specific energy in rock
+  /// Gives the energy that cuts a unit of its volume (Teale, "The concept of specific energy in rock
   /// drilling", 1965), in the middle.
   double specific_energy_j_m3 = 1e9;
   double layer_m = 0.01;              ///< within a layer it is equally hard
@@ -25,8 +25,8 @@ struct Cutter {
   double area_m2 = 0.03;  ///< of the trench, above 0
 };
 
-/// Is the ice below one site, layer by layer, down to the depth that a trench there is to have. Its rate of cutting is
-/// power / (specific energy × area) in each layer, so that depth and time follow from each other exactly.
+/// Models the ice below one site, layer by layer, down to the depth that a trench there is to have. Its rate of
+/// cutting is power / (specific energy × area) in each layer, so that depth and time follow from each other exactly.
 class IceColumn {
  public:
   /// Draws the layers down to `depth_m`, of which there are at most kMostLayers.

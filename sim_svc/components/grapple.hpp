@@ -1,5 +1,5 @@
-// A grapple at the tool of an arm, and what it works on: a structure of slots that hold modules. It knows what truly is
-// (masses, blocked slots, latches that need a second try) and reports what the robot can know of it.
+// This is a grapple at the tool of an arm, and what it works on: a structure of slots that hold modules. It knows the
+// truth (masses, blocked slots, latches that need a second try) and reports what the robot can know of it.
 #pragma once
 
 #include <cstdint>
@@ -14,13 +14,13 @@
 
 namespace roci::sim::components {
 
-/// Is a place of the structure for one module.
+/// Describes a place of the structure for one module.
 struct SlotSettings {
   std::string pose;      ///< of the arm, from which the tool works on it
   bool blocked = false;  ///< nothing can be placed there; nobody knows before it is localized
 };
 
-/// Is a module of the structure.
+/// Describes a module of the structure.
 struct ModuleSettings {
   std::string slot;         ///< in which it is latched at the start
   double mass_kg = 0;       ///< as the robot is told
@@ -44,10 +44,10 @@ struct GrappleSettings {
   std::map<std::string, ModuleSettings> modules;  ///< each in a slot of its own
 };
 
-/// Is a grapple: localize (slot) gives it a fix on a slot, which is lost when the arm moves; grasp (module, slot) takes
-/// a module out, and place (module, slot) puts it in and latches it; both need a fix on the slot. The arm, if there is
-/// one, rests at the slot's pose meanwhile. A latch that does not close is tried again (R146)
-/// as long as there is time left.
+/// Simulates a grapple: localize (slot) gives it a fix on a slot, which is lost when the arm moves; grasp (module,
+/// slot) takes a module out, and place (module, slot) puts it in and latches it; both need a fix on the slot. The arm,
+/// if there is one, rests at the slot's pose meanwhile. A latch that does not close is tried again (R146) as long as
+/// there is time left.
 class Grapple final : public world::Component,
                       public world::PayloadHolder,
                       public world::BodyInterlock,
@@ -75,7 +75,7 @@ class Grapple final : public world::Component,
   world::Ending begin(const world::Task&, temporal::Time now, world::Surroundings&) override;
   std::optional<temporal::Time> next_change() const override;
   world::Ending finish(world::Surroundings&) override;
-  /// Leaves all as it was before the work.
+  /// Stops the work and leaves all as it was before.
   void halt(temporal::Time, world::Surroundings&) override { work_.reset(); }
   void settle(temporal::Time now, world::Body&) override;
   std::optional<std::string> spared_from(const world::Mishap&) const override;
@@ -86,7 +86,7 @@ class Grapple final : public world::Component,
   /// Returns fix, module.<m>, health.<m> and slot.<s> as they are reported.
   std::vector<world::NamedState> states() const override;
   std::optional<std::uint64_t> states_version() const override;
-  /// Returns, of a place, as `tries` how often the latch was tried.
+  /// Returns, after a place, as `tries` how often the latch was tried.
   std::map<std::string, temporal::Value> results() const override { return results_; }
   world::Memory memory() const override;
   void restore(const world::Memory&) override;

@@ -1,4 +1,4 @@
-// How the slots and modules of a grapple's world are read from the files of a mission.
+// This file reads the slots and modules of a grapple's world from the files of a mission.
 #pragma once
 
 #include "sim_svc/components/grapple.hpp"

@@ -1,4 +1,4 @@
-// A gripper that picks samples up and drops them, at the places and poses where that is possible.
+// This is a gripper that picks samples up and drops them, at the places and poses where that is possible.
 #pragma once
 
 #include <map>
@@ -22,9 +22,9 @@ struct GripperSettings {
   std::string drop_pose = "deposit";
 };
 
-/// Is a gripper: it takes pick (sample, place) and drop (sample, place). A sample that nobody touched lies
-/// where the first pick looks for it. The body, if it can drive, stands at the place; the arm, if there is
-/// one, is at the pose; both rest while it works.
+/// Simulates a gripper: it takes pick (sample, place) and drop (sample, place). A sample that nobody touched
+/// lies where the first pick looks for it. The body, if it can drive, stands at the place; the arm, if there
+/// is one, is at the pose; both rest while it works.
 class Gripper final : public world::Component,
                       public world::SampleHolder,
                       public world::BodyInterlock,

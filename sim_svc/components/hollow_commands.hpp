@@ -1,4 +1,4 @@
-// Commands whose next success is told without being true.
+// Hollow commands are those whose next success is reported without being true.
 #pragma once
 
 #include <set>

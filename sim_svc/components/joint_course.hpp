@@ -1,4 +1,4 @@
-// The course that an arm's controller follows: a smooth curve through the points of a trajectory.
+// A joint course is what an arm's controller follows: a smooth curve through the points of a trajectory.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,7 @@ struct CoursePoint {
   kinematics::JointVector change;
 };
 
-/// Is a cubic Hermite curve whose slopes are those of the parabolas through three neighbouring points (de Boor, A
+/// Holds a cubic Hermite curve whose slopes are those of the parabolas through three neighbouring points (de Boor, A
 /// Practical Guide to Splines, 1978, chapter IV, "cubic Bessel interpolation"); it rests before its first and behind
 /// its last point.
 class JointCourse {

@@ -1,4 +1,4 @@
-// A laboratory on board, whose instruments look at a sample one after the other and say whether it
+// This is a laboratory on board, whose instruments analyse a sample one after the other and say whether it
 // has a signature of life.
 #pragma once
 
@@ -15,7 +15,7 @@
 
 namespace roci::sim::components {
 
-/// Is what one instrument takes for a sample.
+/// Holds what one instrument takes for a sample.
 struct Instrument {
   std::string name;
   double duration_s = 0;
@@ -37,15 +37,15 @@ struct LaboratorySettings {
   double power_noise = 0.05;
   std::map<std::string, Signature> signatures;  ///< <site>_<target> → the truth
   double positive_share = 0.5;                  ///< of those that are drawn by the seed
-  /// Are those of an analysis, by its form; empty: none, in any form.
+  /// Lists the products of an analysis, by its form; empty: none, in any form.
   std::map<std::string, std::vector<ProductForm>> products;
   double positive_content = 1.2;  ///< bytes of what holds a signature, as against what holds none
 };
 
-/// Is a laboratory. It takes analyze (site, target, form) of the sample that a SampleCarrier has brought to its inlet;
-/// another sample, or none, is refused as `no-sample`, and one that it has no truth of as `unknown-sample`; so is an
-/// `unknown-form`. When it ends, the signature is known and the form's products are on board; it fails `data-full` for
-/// those without room there.
+/// Simulates a laboratory. It takes analyze (site, target, form) of the sample that a SampleCarrier has brought to its
+/// inlet; another sample, or none, is refused as `no-sample`, and one that it has no truth of as `unknown-sample`; so
+/// is an `unknown-form`. When it ends, the signature is known and the form's products are on board; it fails
+/// `data-full` for those without room there.
 class Laboratory final : public PhasedComponent {
  public:
   Laboratory(LaboratorySettings, world::RandomStream noise);

@@ -1,4 +1,4 @@
-// The settings of a laboratory in mission and scenario files.
+// This file reads the settings of a laboratory in mission and scenario files.
 #pragma once
 #include "sim_svc/components/laboratory.hpp"
 #include "sim_svc/setup/settings.hpp"

@@ -1,4 +1,4 @@
-// A camera that looks for the marker of another robot and works out from it where that one stands.
+// This is a camera that looks for the marker of another robot and works out from it where that robot stands.
 #pragma once
 
 #include <map>
@@ -32,9 +32,9 @@ struct MarkerCameraSettings {
 std::string why_unseen(const world::Ground&, const MarkerCameraSettings&, const world::Pose& from,
                        const world::Pose& to);
 
-/// Is a camera for markers: localise (robot) looks for the one of that robot. The body stands still meanwhile. Results
-/// are `x`, `y` (m) and `heading` (rad) of the other robot; where its marker is not seen the task
-/// fails `marker-not-seen`.
+/// Simulates a camera for markers: localise (robot) looks for the one of that robot. The body stands still meanwhile.
+/// Results are `x`, `y` (m) and `heading` (rad) of the other robot; where its marker is not seen the task fails
+/// `marker-not-seen`.
 class MarkerCamera final : public world::Component, public world::BodyInterlock {
  public:
   MarkerCamera(const MarkerCameraSettings&, world::RandomStream noise);

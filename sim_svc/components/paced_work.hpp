@@ -1,4 +1,4 @@
-// Work that takes its time, and more of it while its component is slowed.
+// Paced work takes its time, and more of it while its component is slowed.
 #pragma once
 
 #include "core/temporal/duration.hpp"
@@ -11,7 +11,7 @@ class PacedWork {
  public:
   /// Starts a piece that takes `work` at the usual pace, in place of the one before.
   void start(temporal::Duration work, temporal::Time now);
-  /// Lets work get on at this share (0 … 1) of the usual pace until then; what is done stays done.
+  /// Slows work to this share (0 … 1) of the usual pace until then; what is done stays done.
   void slow_down(double pace, temporal::Time until, temporal::Time now);
 
   /// Returns what the piece takes at the usual pace.

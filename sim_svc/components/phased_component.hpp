@@ -1,4 +1,4 @@
-// What components have in common whose tasks run through phases.
+// This is what components share whose tasks run through phases.
 #pragma once
 #include <optional>
 #include <string>
@@ -11,7 +11,8 @@
 
 namespace roci::sim::components {
 
-/// Is a component whose tasks have phases in one thermal zone; they can be slowed, and succeed without effect.
+/// Simulates a component whose tasks have phases in one thermal zone; they can be slowed, and succeed without
+/// effect.
 class PhasedComponent : public world::Component {
  public:
   bool busy() const override { return phases_.busy(); }

@@ -1,4 +1,4 @@
-// A task whose parts come one after another, in a thermal zone that is warmed first.
+// The parts of a phased task come one after another, in a thermal zone that is warmed first.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@
 
 namespace roci::sim::components {
 
-/// Is one part of a task.
+/// Describes one part of a task.
 struct Phase {
   enum class Until { over, warm };
   Until until = Until::over;  ///< until so much work is done, or until the zone is warm enough to work
@@ -24,8 +24,8 @@ struct Phase {
   static Phase warming() { return {Until::warm}; }
 };
 
-/// Runs the phases of one task after another. It holds its zone for work from the begin to the end of a task; without a
-/// zone, or on a robot without heat, everything is warm.
+/// Runs the phases of one task after another. It keeps its zone warm for work from the beginning to the end of a task;
+/// without a zone, or on a robot without heat, everything is warm.
 class PhasedTask {
  public:
   /// `zone` is the name of a zone of the robot's body; empty: none.
@@ -52,7 +52,7 @@ class PhasedTask {
   bool go_on(world::Body&);
   void halt(temporal::Time now, world::Body&);
   void slow_down(double pace, temporal::Time until, temporal::Time now) { work_.slow_down(pace, until, now); }
-  /// Looks again at when the zone will be warm.
+  /// Computes anew when the zone will be warm.
   void settle(temporal::Time now, world::Body&);
 
   double energy_j(temporal::Time from, temporal::Time to) const;

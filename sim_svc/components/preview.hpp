@@ -1,4 +1,4 @@
-// Images of the simulated ground as a body's camera takes them.
+// This file renders images of the simulated ground as a body's camera takes them.
 #pragma once
 #include <cstdint>
 #include <vector>

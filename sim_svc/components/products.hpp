@@ -1,4 +1,4 @@
-// The data products that a component's commands make, as its settings describe them.
+// This file makes the data products of a component's commands, as its settings describe them.
 #pragma once
 
 #include <map>
@@ -12,7 +12,7 @@
 
 namespace roci::sim::components {
 
-/// Is a product that a command makes.
+/// Describes a product that a command makes.
 struct ProductForm {
   std::string kind;  ///< arguments of the command stand in braces: trench_{site}
   world::Tier tier = world::Tier::mandatory;

@@ -1,4 +1,4 @@
-// A radio that sends images to the other side, as long as the window to it is open.
+// This is a radio that sends images to the other side as long as the window to it is open.
 #pragma once
 
 #include <map>
@@ -19,8 +19,8 @@ struct RadioSettings {
   std::string window = "comm.window";  ///< timeline that says when the other side is in view
 };
 
-/// Is a radio: send (image) sends an image on board at the radio's rate, only while the window is open; when
-/// the window closes before the end, the send fails and the image stays stored.
+/// Simulates a radio: send (image) sends an image on board at the radio's rate, only while the window is
+/// open; when the window closes before the end, the send fails and the image stays stored.
 class Radio final : public world::Component {
  public:
   Radio(RadioSettings, world::RandomStream noise);

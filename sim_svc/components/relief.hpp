@@ -1,4 +1,4 @@
-// The simulated ground in the detail that a camera sees.
+// The relief is the simulated ground in the detail that a camera sees.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -8,11 +8,11 @@
 
 namespace roci::sim::components {
 
-/// Is the share of light that soil returns, on average.
+/// Gives the share of light that soil returns, on average.
 inline constexpr double kSoilAlbedo = 0.42;
 
-/// Is the ground as a camera sees it, finer than any map: on the elevation of the site stand its rocks as boulders, the
-/// hidden rocks, pebbles and the odd targets; soil has a texture. All of it follows from the ground and its seed.
+/// Shows the ground as a camera sees it, finer than any map: on the elevation of the site stand its rocks as boulders,
+/// the hidden rocks, pebbles and the odd targets; soil has a texture. All of it follows from the ground and its seed.
 class Relief {
  public:
   /// Prepares what lies within `reach` metres of `centre`. The ground has a site, and outlives this.
@@ -25,7 +25,7 @@ class Relief {
   /// Returns how high anything stands above floor() at most, in m.
   double tallest() const { return tallest_; }
 
-  /// Is what a spot does with light.
+  /// Says what a spot does with light.
   struct Spot {
     terrain::Gradient slope;
     double albedo = 0;  ///< share of the light that it returns

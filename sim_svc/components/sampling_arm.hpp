@@ -1,4 +1,5 @@
-// An arm with five joints, a cutter and a drill, which digs trenches and brings samples from them to a laboratory.
+// This is an arm with five joints, a cutter and a drill, which digs trenches and brings samples from them to a
+// laboratory.
 #pragma once
 
 #include <array>
@@ -18,7 +19,7 @@ namespace roci::sim::components {
 
 using ArmJoints = std::array<double, 5>;  ///< rad
 
-/// Is a place where a trench may be dug.
+/// Describes a place where a trench may be dug.
 struct SamplingSite {
   Ice ice;
   double jams_per_h = 0;                   ///< of cutting, on average
@@ -34,7 +35,7 @@ struct SamplingArmSettings {
   Cutter cutter{120, 0.03};           ///< 2 GJ/m³ make 14 h of it
   double specific_energy_j_m3 = 2e9;  ///< of the ice for which collect_s holds
   double cutter_efficiency = 0.6;     ///< share of the cutter's power that comes to the ice
-  double give_up_s = 1800;            ///< it tries so long where nothing gives way
+  double give_up_s = 1800;            ///< how long it tries where nothing gives way
   double prepare_s = 1200;            ///< calibrates joints and tools, once warm
   double collect_s = 18000;           ///< drills, in ice of specific_energy_j_m3; in harder ice longer
   double transport_s = 3000;          ///< hands over, at the inlet
@@ -47,7 +48,7 @@ struct SamplingArmSettings {
   double drill_w = 110;        ///< beside the arm, while it drills
   double power_noise = 0.05;
   double waste_share = 0.3;  ///< of what it draws, left as heat in its zone
-  /// What each command warms beside the zone, by command; that is part of its duration and its power.
+  /// Lists by command what it warms beside the zone, which is part of its duration and its power.
   std::map<std::string, world::ColdPart> warms{};
   double joint_speed_rad_s = 0.01;
   ArmJoints rest{0, -1.5, 2.6, 0.5, 0};
@@ -55,11 +56,11 @@ struct SamplingArmSettings {
   ArmJoints dump{-1.6, -0.7, 1.4, 0.9, 0};
 };
 
-/// Is a sampling arm. It takes prepare, excavate (site), collect (site, target), transport and discard; each warms the
-/// zone first, moves the arm and works. After prepare, which comes before all else and may come again, the tool is
-/// empty. What is dug stays dug, whatever becomes of the task; a trench that has its depth already is done at once. It
-/// fails `stuck` where the cutter jams and `too-hard` where the ice gives way no more, and refuses what makes no sense:
-/// `not-prepared unknown-site unknown-target not-excavated not-empty no-sample too-cold`.
+/// Simulates a sampling arm. It takes prepare, excavate (site), collect (site, target), transport and discard; each
+/// warms the zone first, moves the arm and works. After prepare, which comes before all else and may come again, the
+/// tool is empty. What is dug stays dug, whatever becomes of the task; a trench that has its depth already is done at
+/// once. It fails `stuck` where the cutter jams and `too-hard` where the ice gives way no more, and refuses what makes
+/// no sense: `not-prepared unknown-site unknown-target not-excavated not-empty no-sample too-cold`.
 class SamplingArm final : public PhasedComponent, public world::SampleCarrier {
  public:
   SamplingArm(SamplingArmSettings, world::RandomStream noise);
@@ -88,7 +89,7 @@ class SamplingArm final : public PhasedComponent, public world::SampleCarrier {
   world::Ending finish(world::Surroundings&) override;
   void halt(temporal::Time now, world::Surroundings&) override;
   std::optional<std::string> spared_from(const world::Mishap&) const override;
-  /// A trench under the cutter goes on from the depth that is left.
+  /// Suffers a mishap; a trench under the cutter goes on from the depth that is left.
   void suffer(const world::Mishap&, temporal::Time now, world::Surroundings&) override;
   void settle(temporal::Time now, world::Body&) override;
 

@@ -1,4 +1,4 @@
-// The settings of a sampling arm in mission and scenario files.
+// This file reads the settings of a sampling arm in mission and scenario files.
 #pragma once
 #include "sim_svc/components/sampling_arm.hpp"
 #include "sim_svc/setup/settings.hpp"

@@ -1,4 +1,4 @@
-// A seismometer, which records quakes beside all other work until it is parked.
+// This is a seismometer, which records quakes beside all other work until it is parked.
 #pragma once
 
 #include <map>
@@ -28,8 +28,8 @@ struct SeismometerSettings {
   std::vector<ProductForm> products;  ///< made each time it is parked
 };
 
-/// Is a seismometer. It takes start and park. What it makes when it is parked grows with the time that it recorded and
-/// with the quakes in it. Parked already, or recording already, it is done at once.
+/// Simulates a seismometer. It takes start and park. What it makes when it is parked grows with the time that it
+/// recorded and with the quakes in it. Parked already, or recording already, it is done at once.
 class Seismometer final : public world::Component {
  public:
   Seismometer(SeismometerSettings, world::RandomStream noise);

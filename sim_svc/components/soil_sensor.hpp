@@ -1,4 +1,5 @@
-/// What a light robot measures of the soil while it drives, to say whether a heavier one may follow.
+// A soil sensor is what a light robot measures soil with while it drives, to say whether a heavier one may
+// follow.
 #pragma once
 #include <optional>
 #include <string>
@@ -10,7 +11,7 @@
 
 namespace roci::sim::components {
 
-/// Is one instrument that presses on the ground.
+/// Describes one instrument that presses on the ground.
 struct SoilInstrument {
   std::string name;
   double ahead_m = 0;    ///< of the body's centre, in the direction of travel
@@ -31,14 +32,14 @@ struct SoilSensorSettings {
   double mark_radius_m = 1.5;         ///< of the circle that is marked, from the No-Go onwards
 };
 
-/// Is the verdict that the vehicle must not go there.
+/// Gives the verdict that the vehicle must not go there.
 struct NoGo {
-  terrain::Point at;  ///< that was measured
+  terrain::Point at;  ///< point that was measured
   std::string instrument;
-  Footing expected;  ///< of the vehicle, as the measurement has it
+  Footing expected;  ///< footing of the vehicle, by the measurement
 };
 
-/// Is a disc on the map.
+/// Describes a disc on the map.
 struct MarkedDisc {
   terrain::Point centre;
   double radius = 0;
@@ -56,7 +57,7 @@ struct SoilRecord {
 /// on the steepest line of the slope there.
 class SoilSensor {
  public:
-  /// `known` are discs in which a No-Go is no news. All must outlive it.
+  /// Ignores a No-Go in the discs `known`, where it is no news. All arguments must outlive this object.
   SoilSensor(const SoilSensorSettings&, const std::vector<MarkedDisc>& known, world::RandomStream& noise);
 
   /// Measures what is due after `moved_m` more metres, the last of them to this pose. Returns the first No-Go.

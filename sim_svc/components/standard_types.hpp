@@ -1,4 +1,4 @@
-// The table of the simulator's own component types.
+// This is the table of the simulator's own component types.
 #pragma once
 #include "sim_svc/setup/registry.hpp"
 

@@ -1,4 +1,4 @@
-// A camera on a lander that looks for places to dig and to sample, and takes panoramas.
+// This is a camera on a lander that looks for places to dig and to sample, and takes panoramas.
 #pragma once
 
 #include <map>
@@ -12,7 +12,7 @@
 
 namespace roci::sim::components {
 
-/// Is what one of the camera's commands takes.
+/// Holds what one of the camera's commands takes.
 struct Survey {
   double duration_s = 3600;
   double power_w = 60;
@@ -32,10 +32,10 @@ struct SurveyCameraSettings {
   std::map<std::string, std::vector<ProductForm>> products;  ///< by command
 };
 
-/// Is a survey camera. It takes find_sites, find_targets (site) and panorama; each warms the zone first, and makes the
-/// products of its settings. Results of find_sites are value_<site> of all sites, of find_targets
-/// visual_<site>_<target> of the site's; a site of which it knows no value is refused as `unknown-site`,
-/// if it knows that of any.
+/// Simulates a survey camera. It takes find_sites, find_targets (site) and panorama; each warms the zone first, and
+/// makes the products of its settings. Results of find_sites are value_<site> of all sites, of find_targets
+/// visual_<site>_<target> of the site's; a site of which it knows no value is refused as `unknown-site`, if it knows
+/// that of any.
 class SurveyCamera final : public PhasedComponent {
  public:
   SurveyCamera(SurveyCameraSettings, world::RandomStream noise);

@@ -1,4 +1,4 @@
-// The settings of a survey camera in mission and scenario files.
+// This file reads the settings of a survey camera in mission and scenario files.
 #pragma once
 #include "sim_svc/components/survey_camera.hpp"
 #include "sim_svc/setup/settings.hpp"

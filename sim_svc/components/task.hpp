@@ -14,7 +14,7 @@
 
 namespace roci::sim::components {
 
-/// Is a state whose words may hold arguments of the command in braces: going-to ({to}).
+/// Holds a state whose words may hold arguments of the command in braces: going-to ({to}).
 struct StateTemplate {
   std::string name;
   std::vector<std::string> arguments;
@@ -26,29 +26,29 @@ struct NumberChange {
   std::optional<double> to;  ///< the value at the end, instead
 };
 
-/// Is a command of a task component.
+/// Describes a command of a task component.
 struct TaskCommand {
   std::string name;
   std::vector<std::string> arguments{};
   double duration_s = 0;
   double duration_noise = 0;  ///< standard deviation as a share of the duration
   double power_w = 0;         ///< while it runs; negative: it charges the battery
-  /// The battery must have risen by so much, in J, when it is looked at, unless it is full then; else the task
-  /// is broken off and fails `no-gain`. 0: it is not looked at.
+  /// Says by how much, in J, the battery must have risen when it is checked, unless it is full then; else the
+  /// task is broken off and fails `no-gain`. 0: it is not checked.
   double gains_j = 0;
-  std::optional<double> gains_within_s{};  ///< since the start, when it is looked at; empty: at the end
+  std::optional<double> gains_within_s{};  ///< time of the check since the start; empty: at the end
   std::optional<StateTemplate> during{};   ///< while it runs; empty: the command's name
   std::optional<StateTemplate> then{};     ///< holds when it is done; empty: the state before
   std::optional<StateTemplate> stopped{};  ///< holds when it is broken off; empty: the state before
   std::optional<StateTemplate> failed{};   ///< holds when too little was gained; empty: as when broken off
   std::map<std::string, std::string> needs{};  ///< component → name of the state it must be in at the start
   std::map<std::string, NumberChange> changes{};  ///< go by the name of the number
-  /// Thing, as family.name with arguments in braces (hole.{hole}) → the state that it is left in when the command
-  /// is done.
+  /// Maps things, as family.name with arguments in braces (hole.{hole}), to the state that they are left in when
+  /// the command is done.
   std::map<std::string, StateTemplate> leaves{};
 };
 
-/// Is a numeric timeline of the component, `<robot>.<component>.<name>`.
+/// Describes a numeric timeline of the component, `<robot>.<component>.<name>`.
 struct TaskNumber {
   std::string name;
   double start = 0;
@@ -78,7 +78,7 @@ class TaskComponent final : public world::Component {
   world::Ending begin(const world::Task&, temporal::Time now, world::Surroundings&) override;
   std::optional<temporal::Time> next_change() const override;
   world::Ending finish(world::Surroundings&) override;
-  /// A running task ends the later; what it has done stays done.
+  /// Delays the end of a running task; what it has done stays done.
   void slow_down(double pace, temporal::Time until, temporal::Time now, world::Surroundings&) override {
     work_.slow_down(pace, until, now);
   }

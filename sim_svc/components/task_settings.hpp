@@ -1,4 +1,4 @@
-// The settings of a component that is data alone, in mission and scenario files.
+// This file reads the settings of a component that is data alone, in mission and scenario files.
 #pragma once
 #include "sim_svc/components/task.hpp"
 #include "sim_svc/setup/settings.hpp"

@@ -1,4 +1,5 @@
-/// What loose soil does to a vehicle on rigid wheels: how deep it sinks, what it must push, how much it slips.
+// Terramechanics says what loose soil does to a vehicle on rigid wheels: how deep it sinks, what it must push,
+// how much it slips.
 #pragma once
 #include "sim_svc/world/soil.hpp"
 
@@ -21,7 +22,7 @@ struct Footing {
   bool bears = true;  ///< false: it sinks to its axles, or the soil gives less thrust than is needed
 };
 
-/// Is the largest slip at which a wheel still makes way.
+/// Gives the largest slip at which a wheel still makes way.
 inline constexpr double kMostSoilSlip = 0.95;
 
 /// Computes the footing by Bekker's formulas for a rigid wheel, as in Wong, "Theory of Ground Vehicles", 4th ed.

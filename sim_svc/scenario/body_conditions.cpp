@@ -14,29 +14,29 @@ using world::RobotSetup;
 
 namespace {
 
-struct Word {
+struct BodyCondition {
   const char* name;
   const char* thing;  // that a robot must have
   // Returns whether the robot has it.
   std::function<bool(RobotSetup&, const Entry&)> apply;
 };
 
-Word of_power(const char* name, std::function<void(world::PowerParameters&, const Entry&)> set) {
+BodyCondition of_power(const char* name, std::function<void(world::PowerParameters&, const Entry&)> set) {
   return {name, "power", [set = std::move(set)](RobotSetup& robot, const Entry& entry) {
             if (robot.power) set(robot.power->parameters, entry);
             return robot.power.has_value();
           }};
 }
 
-Word of_heat(const char* name, std::function<void(world::ThermalParameters&, const Entry&)> set) {
+BodyCondition of_heat(const char* name, std::function<void(world::ThermalParameters&, const Entry&)> set) {
   return {name, "thermal", [set = std::move(set)](RobotSetup& robot, const Entry& entry) {
             if (robot.thermal) set(*robot.thermal, entry);
             return robot.thermal.has_value();
           }};
 }
 
-const std::vector<Word>& words() {
-  static const std::vector<Word> all{
+const std::vector<BodyCondition>& body_conditions() {
+  static const std::vector<BodyCondition> all{
       of_power("use_factor", [](auto& power, const Entry& entry) { power.use_factor = at_least(entry, 0); }),
       of_power("gauge", [](auto& power, const Entry& entry) { power.gauge = setup::read_gauge(entry); }),
       of_heat("surroundings_k",
@@ -56,15 +56,15 @@ const std::vector<Word>& words() {
 
 void apply_body_conditions(const Entry& world, std::vector<RobotSetup>& robots,
                            std::set<std::string, std::less<>>& known) {
-  for (const Word& word : words()) {
-    known.emplace(word.name);
-    const auto entry = world.find(word.name);
+  for (const BodyCondition& condition : body_conditions()) {
+    known.emplace(condition.name);
+    const auto entry = world.find(condition.name);
     if (!entry) continue;
     entry->attempt([&] {
       bool used = false;
-      for (RobotSetup& robot : robots) used = word.apply(robot, *entry) || used;
+      for (RobotSetup& robot : robots) used = condition.apply(robot, *entry) || used;
       if (!used)
-        entry->fail("no robot has '" + std::string(word.thing) + "', to which '" + word.name +
+        entry->fail("no robot has '" + std::string(condition.thing) + "', to which '" + condition.name +
                     "' belongs; drop it, or give a robot that in mission.yaml");
     });
   }

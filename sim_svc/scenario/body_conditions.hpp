@@ -1,4 +1,4 @@
-// What a scenario says of the bodies' energy, heat and storage, over what the mission says.
+// A scenario may change what the mission says of the bodies' energy, heat and storage.
 #pragma once
 #include <set>
 #include <string>

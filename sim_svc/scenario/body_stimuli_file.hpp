@@ -1,4 +1,4 @@
-// Stimuli of a scenario file that concern a robot's energy, heat and view.
+// This file reads stimuli of a scenario that concern a robot's energy, heat and view.
 #pragma once
 #include "core/mission/entry.hpp"
 #include "sim_svc/setup/roster_file.hpp"
@@ -14,7 +14,7 @@ world::EnergyDrop read_energy_drop(const mission::Entry&, const setup::RobotEntr
 world::SurroundingsChange read_surroundings_change(const mission::Entry&, const setup::Roster&);
 world::SuddenHeat read_sudden_heat(const mission::Entry&, const setup::RobotEntry&);
 world::RateChange read_rate_change(const mission::Entry&, const setup::RobotEntry&);
-/// Whether there is such a window, the reader does not know.
+/// Reads a disturbance of a window, without checking that there is such a window.
 world::ViewBlock read_view_block(const mission::Entry&, temporal::Time at);
 
 }  // namespace roci::sim::scenario

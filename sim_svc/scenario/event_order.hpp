@@ -1,4 +1,4 @@
-// The events that a scenario expects, compared with those that come.
+// The events that a scenario expects are compared with those that come.
 #pragma once
 #include <cstddef>
 #include <set>
@@ -8,7 +8,7 @@
 
 namespace roci::sim::scenario {
 
-/// Is an event that the scenario expects.
+/// Describes an event that the scenario expects.
 struct ExpectedEvent {
   std::string code;
   std::string part;      ///< belongs to the event's text; empty: any text

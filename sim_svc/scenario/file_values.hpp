@@ -1,4 +1,4 @@
-// Numbers, times and rocks as scenario files write them.
+// This file reads numbers, times and rocks as scenario files write them.
 #pragma once
 #include "core/mission/entry.hpp"
 #include "sim_svc/world/environment.hpp"

@@ -1,4 +1,4 @@
-/// Orders of the ground in a scenario's stimuli (docs/orders.md).
+// This file reads orders of the ground in a scenario's stimuli (docs/orders.md).
 #pragma once
 
 #include "core/mission/entry.hpp"

@@ -1,4 +1,4 @@
-// What a run of the simulator is made of, read from the files of a mission.
+// A run of the simulator is read from the files of a mission.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,5 @@
-// A scenario as values: how a run starts, what is done to it at which time, and which events are expected of it.
+// A scenario is made of values: how a run starts, what is done to it at which time, and which events are
+// expected of it.
 #pragma once
 
 #include <cstdint>
@@ -17,14 +18,15 @@
 
 namespace roci::sim::scenario {
 
+/// Says how much a goal of the scenario matters.
 enum class Importance { hard, optional, opportunistic };
 
-/// Is a goal that somebody else than the robot publishes during the run.
+/// Describes a goal that somebody else than the robot publishes during the run.
 struct GoalStimulus {
   std::string issuer;
   std::string id;
   std::string kind;
-  std::string robot;  ///< that is to achieve it; empty: the only one
+  std::string robot;  ///< robot that is to achieve it; empty: the only one
   Importance importance = Importance::optional;
   std::vector<double> utility{1};  ///< by rank, the highest first
   std::int32_t priority = 0;
@@ -32,22 +34,22 @@ struct GoalStimulus {
   temporal::Time opens{};   ///< 0: any time
   temporal::Time closes{};  ///< 0: none
   std::vector<std::pair<std::string, std::string>> arguments;
-  std::optional<mission::Entry> entry{};  ///< is where it stands in the file
+  std::optional<mission::Entry> entry{};  ///< where it stands in the file
 };
 
-/// The issuer takes a goal back.
+/// Lets the issuer recall a goal.
 struct RecallStimulus {
   std::string issuer;
   std::string id;
 };
 
-/// The ground knows of an obstacle and tells those who keep a map.
+/// Lets the ground tell those who keep a map of an obstacle.
 struct HazardStimulus {
   std::string id;
   world::Rock rock;
 };
 
-/// The ground replaces the network of a planner, or sets a parameter of it.
+/// Lets the ground replace the network of a planner, or set one of its parameters.
 struct NetworkStimulus {
   std::string issuer;
   std::string id;
@@ -57,10 +59,11 @@ struct NetworkStimulus {
   double value = 0;
 };
 
-/// What the ground may order; the words are those of `roci order`.
+/// Names what the ground may order; the words are those of `roci order`.
 enum class OrderKind { hold, release, approve, set_value, autonomy, answer, drop, relaunch, safe, command };
 
-/// Is an order of the ground to an executive (docs/orders.md); which of the members count depends on its kind.
+/// Describes an order of the ground to an executive (docs/orders.md); which of the members count depends on
+/// its kind.
 struct OrderStimulus {
   std::string issuer;
   std::string id;
@@ -72,20 +75,20 @@ struct OrderStimulus {
   int level = 4;  ///< of autonomy: 1 to 4
 };
 
-/// Is something that the scenario lets happen at a time.
+/// Describes something that the scenario lets happen at a time.
 struct Stimulus {
   temporal::Time at{};
   std::variant<GoalStimulus, RecallStimulus, HazardStimulus, NetworkStimulus, OrderStimulus,
                world::Disturbance>
       what;
-  /// Is where `what` stands in the file, if it was read from one.
+  /// Says where `what` stands in the file, if it was read from one.
   std::optional<mission::Entry> entry{};
 };
 
 /// Says how a robot begins.
 struct Start {
   std::optional<world::Pose> pose;
-  std::optional<mission::Entry> pose_entry;  ///< is where it stands in the file
+  std::optional<mission::Entry> pose_entry;  ///< where it stands in the file
   std::optional<double> battery_j;
   std::map<std::string, mission::Entry> components;  ///< component → what its type makes of it
 };

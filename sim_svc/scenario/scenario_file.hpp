@@ -1,4 +1,4 @@
-// A scenario from its file.
+// This file reads a scenario.
 #pragma once
 #include <vector>
 

@@ -1,4 +1,4 @@
-// Soils and where they lie, as mission and scenario files say it.
+// This file reads soils and where they lie, as mission and scenario files say it.
 #pragma once
 #include "core/mission/entry.hpp"
 #include "sim_svc/world/soil.hpp"

@@ -1,4 +1,4 @@
-// The stimuli of a scenario file: what happens in a run, and when.
+// The stimuli of a scenario file say what happens in a run, and when.
 #pragma once
 #include <vector>
 

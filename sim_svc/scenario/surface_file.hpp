@@ -1,4 +1,4 @@
-// Look and soil of the simulated ground in mission and scenario files.
+// This file reads look and soil of the simulated ground in mission and scenario files.
 #pragma once
 #include "core/mission/entry.hpp"
 #include "sim_svc/world/surface.hpp"

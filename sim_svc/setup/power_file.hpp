@@ -1,4 +1,4 @@
-// A robot's power in the mission file: battery, panel, use, gauge.
+// This file reads a robot's power in the mission file: battery, panel, use, gauge.
 #pragma once
 #include "core/mission/entry.hpp"
 #include "sim_svc/world/battery.hpp"

@@ -1,4 +1,4 @@
-// The component types that a mission may name, and who reads their settings.
+// The registry has the component types that a mission may name, and who reads their settings.
 #pragma once
 #include <functional>
 #include <map>
@@ -14,7 +14,7 @@ namespace roci::sim::setup {
 /// Reads a component's settings, and says how to make it. It keeps values, no entry of a file.
 using ReadComponent = std::function<world::MakeComponent(Settings&)>;
 
-/// Is one kind of component, as mission.yaml names it by `type`.
+/// Describes one kind of component, as mission.yaml names it by `type`.
 struct ComponentType {
   ReadComponent read;
   bool on_ground = false;      ///< its robot needs a place on the map at the start, and the mission a site

@@ -1,4 +1,4 @@
-// The simulated robots and their components as the mission file lists them.
+// The roster has the simulated robots and their components as the mission file lists them.
 #pragma once
 #include <optional>
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace roci::sim::setup {
 
-/// Is a component as `simulation.robots` of mission.yaml lists it.
+/// Describes a component as `simulation.robots` of mission.yaml lists it.
 struct ComponentEntry {
   std::string name;
   std::string type;
@@ -19,7 +19,7 @@ struct ComponentEntry {
   bool has_rate = false;
 };
 
-/// Is a robot as `simulation.robots` of mission.yaml lists it.
+/// Describes a robot as `simulation.robots` of mission.yaml lists it.
 struct RobotEntry {
   std::string name;
   std::vector<ComponentEntry> components;
@@ -45,7 +45,7 @@ const RobotEntry* robot_named(const Roster&, std::string_view name);
 std::vector<std::string> robot_names(const Roster&);
 /// Returns the component that the entry names; throws mission::FileError if the robot has none of that name.
 const ComponentEntry& component_of(const mission::Entry& name, const RobotEntry&);
-/// "rover, scout; did you mean 'scout'?", to be put behind "known: ".
+/// Returns "rover, scout; did you mean 'scout'?", to be put behind "known: ".
 std::string known_names(std::string_view word, const std::vector<std::string>& known);
 
 }  // namespace roci::sim::setup

@@ -1,4 +1,4 @@
-// A component's settings, looked up in scenario and mission.
+// A component's settings are looked up in scenario and mission.
 #pragma once
 #include <map>
 #include <memory>

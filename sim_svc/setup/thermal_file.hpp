@@ -1,4 +1,4 @@
-// A robot's surroundings and thermal zones in the mission file.
+// This file reads a robot's surroundings and thermal zones in the mission file.
 #pragma once
 #include "core/mission/entry.hpp"
 #include "sim_svc/world/thermal.hpp"

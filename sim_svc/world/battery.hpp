@@ -1,4 +1,4 @@
-// A simulated battery: what charges and drains it, and what its gauge tells.
+// This is a simulated battery: what charges and drains it, and what its gauge shows.
 #pragma once
 #include <optional>
 #include <string>
@@ -24,9 +24,8 @@ double sunlit_s(const Orbit&, temporal::Time from, temporal::Time to);
 /// Returns the intervals of sunlight that begin before `end`, ascending.
 std::vector<std::pair<temporal::Time, temporal::Time>> sunlight(const Orbit&, temporal::Time end);
 
-/// Describes what tells the charge of a battery: below `below_j` it falls `factor` times as fast as the
-/// charge does, but not below
-/// 0. What is there is another matter.
+/// Describes the gauge of a battery: below `below_j` it falls `factor` times as fast as the charge does, but
+/// not below 0. The true charge is unaffected.
 struct Gauge {
   double below_j = 0;
   double factor = 1;
@@ -42,7 +41,7 @@ struct PowerParameters {
   double solar_peak_w = 0;      ///< 0: there is no panel
   double solar_noon_s = 21600;  ///< mission time of the highest sun
   double day_s = 88775;         ///< length of a day, by default a Martian one
-  /// Takes the place of the panel and the day above.
+  /// Replaces the panel and the day above.
   std::optional<Orbit> orbit{};
   double use_factor = 1;  ///< of all that is drawn, as against what the parts would need
   Gauge gauge{};
@@ -54,10 +53,11 @@ bool has_panel(const PowerParameters&);
 /// Returns the power of the panel in W: the positive half of a cosine over the day.
 double solar_power_w(const PowerParameters&, temporal::Time);
 
-/// Returns what the panel gives in [from, to), in J: an orbit's exactly, else the power in the middle for as long.
+/// Returns what the panel gives in [from, to), in J: exactly for an orbit, else the power in the middle times the
+/// duration.
 double solar_energy_j(const PowerParameters&, temporal::Time from, temporal::Time to);
 
-/// Is an ideal store between 0 and its capacity.
+/// Models an ideal store between 0 and its capacity.
 class Battery {
  public:
   Battery(double energy_j, double capacity_j);

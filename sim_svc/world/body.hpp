@@ -1,4 +1,4 @@
-// What a simulated robot has beside its components.
+// The body is what a simulated robot has beside its components.
 #pragma once
 #include <map>
 #include <optional>

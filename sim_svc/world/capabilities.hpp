@@ -1,6 +1,6 @@
-// Components of one robot know of each other not who is there, but what somebody there can do. A component
-// implements those capabilities that are true of it; the others find it by them (ComponentSet), whatever its
-// name and type.
+// Components of one robot know of each other by what somebody can do, not by who is there. A component
+// implements the capabilities that it has; the others find it by them (ComponentSet), whatever its name and
+// type.
 #pragma once
 
 #include <optional>
@@ -49,7 +49,7 @@ class SampleCarrier {
   virtual std::optional<SampleOrigin> delivered() const = 0;
 };
 
-/// Is a load as a tool holds it.
+/// Describes a load as a tool holds it.
 struct Payload {
   double told_kg = 0;            ///< as the robot believes it to be
   double true_kg = 0;            ///< as it is

@@ -1,4 +1,5 @@
-/// What hangs outside of all thermal zones, and how long it takes to warm that.
+// Cold parts are outside of all thermal zones, and start at the temperature of the surroundings whenever
+// their work begins.
 #pragma once
 #include <optional>
 
@@ -11,10 +12,10 @@ struct ColdPart {
   double loss_w_k = 0.4;       ///< to the surroundings, above 0
   double heater_w = 100;       ///< above 0
   double work_k = 200;
-  double usual_k = 100;  ///< of the surroundings for which durations and powers of its work are told
+  double usual_k = 100;  ///< surroundings for which durations and powers of its work are given
 };
 
-/// Is what the warmth of such a part asks for.
+/// Says what the warmth of such a part asks for.
 struct Warming {
   double seconds = 0;    ///< until it is at work_k
   double holding_w = 0;  ///< from then on

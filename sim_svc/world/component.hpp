@@ -22,15 +22,15 @@ namespace roci::sim::world {
 
 /// Holds what a component may see and change outside itself while it acts.
 struct Surroundings {
-  const std::string& robot;  ///< is the one whose part it is
+  const std::string& robot;  ///< robot whose part it is
   Environment& environment;
   Body& body;
-  const ComponentSet& components;  ///< are those of the same robot, itself included
+  const ComponentSet& components;  ///< components of the same robot, itself included
   Outputs& out;
-  std::vector<PhysicalEffect> effects{};  ///< takes what the component does to the world
+  std::vector<PhysicalEffect> effects{};  ///< what the component does to the world
 };
 
-/// Is a command of a component with the arguments that it needs.
+/// Describes a command of a component with the arguments that it needs.
 struct CommandForm {
   std::string name;
   std::vector<std::string> arguments;
@@ -41,40 +41,41 @@ struct CommandForm {
   std::vector<std::string> missing(const std::function<bool(const std::string&)>& is_given) const;
 };
 
-/// Is a state timeline beside the component's own, `<robot>.<name>`, of a thing that it handles
+/// Describes a state timeline beside the component's own, `<robot>.<name>`, of a thing that it handles
 /// (sample.soil).
 struct NamedState {
   std::string name;
   temporal::State state;
 };
 
-/// Is a state that a component may be in, with how many arguments it has then.
+/// Describes a state that a component may be in, with how many arguments it has then.
 struct StateForm {
   std::string name;
   std::size_t arguments{};
   auto operator<=>(const StateForm&) const = default;
 };
 
-/// Is a state timeline that a component always has beside its own, `<robot>.<name>`.
+/// Describes a state timeline that a component always has beside its own, `<robot>.<name>`.
 struct NamedForm {
   std::string name;
   std::vector<StateForm> states;
 };
 
-/// Is a family of state timelines of things that a component handles, `<robot>.<family>.<thing>`.
+/// Describes a family of state timelines of things that a component handles, `<robot>.<family>.<thing>`.
 struct ThingForm {
   std::string family;
   std::vector<StateForm> states;
 };
 
-/// Is a number timeline of the component, `<robot>.<component>.<name>`, reported in steps of `resolution`.
+/// Describes a number timeline of the component, `<robot>.<component>.<name>`, reported in steps of
+/// `resolution`.
 struct NamedNumber {
   std::string name;
   double value = 0;
   double resolution = 1e-3;
 };
 
-/// Is what of a component outlives the process that speaks for it, by names of its own.
+/// Holds what of a component outlives the process that speaks for it, by names of its own.
 using Memory = std::map<std::string, temporal::Value>;
 
 /// Says what the robot asks of each of its parts. begin() is called only while it is not busy; next_change()
@@ -84,7 +85,7 @@ class Component {
  public:
   virtual ~Component() = default;
 
-  /// Is told the parts of its robot, itself included, before anything else; they live as long as it does.
+  /// Takes in the parts of its robot, itself included, before anything else; they live as long as it does.
   virtual void meet(const ComponentSet&) {}
 
   virtual std::vector<CommandForm> commands() const = 0;
@@ -111,16 +112,16 @@ class Component {
   /// Does of its own accord what is due. It is called after the tasks at every event of the world, and passes a turn
   /// over while it is not `able` (out of order, battery empty); afterwards next_routine() lies after `now`.
   virtual void run_routine(temporal::Time /*now*/, bool /*able*/, Surroundings&) {}
-  /// Lets its tasks get on at this share of their usual speed until then; a component that cannot be slowed
-  /// (ComponentType::can_be_slowed) does not hear of it.
+  /// Slows its tasks to this share of their usual speed until then; it is not called for a component that
+  /// cannot be slowed (ComponentType::can_be_slowed).
   virtual void slow_down(double /*pace*/, temporal::Time /*until*/, temporal::Time /*now*/, Surroundings&) {}
-  /// Lets the next success of the command be told without being true: time and energy are used, and nothing else has
-  /// changed; a component that cannot do so (ComponentType::can_be_hollow) does not hear of it.
+  /// Makes the next success of the command hollow: time and energy are used, and nothing else changes. It is not
+  /// called for a component that cannot do so (ComponentType::can_be_hollow).
   virtual void hollow_next(const std::string& /*command*/) {}
   /// Takes in which data are to go with which downlink from now on.
   virtual void heed(const DownlinkSchedule&) {}
-  /// Lets data go at this share of the usual rate from now on; a component without a rate (ComponentType::has_rate)
-  /// does not hear of it.
+  /// Sends data at this share of the usual rate from now on; it is not called for a component without a rate
+  /// (ComponentType::has_rate).
   virtual void change_rate(double /*factor*/, temporal::Time /*now*/) {}
   /// Breaks the running task off at once.
   virtual void halt(temporal::Time now, Surroundings&) = 0;
@@ -142,9 +143,9 @@ class Component {
   virtual std::vector<std::string> zones() const { return {}; }
   /// Returns the zone that it keeps warm for work now, whose heater then counts as its task's; empty: none.
   virtual std::string held_zone() const { return {}; }
-  /// Takes in that a window, or the heat of the body, is another one from now on than was to be foreseen.
+  /// Takes in that a window, or the heat of the body, differs from now on from what could be foreseen.
   virtual void surroundings_changed(temporal::Time /*now*/, Surroundings&) {}
-  /// Takes in that the ground is another one from now on.
+  /// Takes in that the ground has changed.
   virtual void ground_changed(temporal::Time /*now*/, Surroundings&) {}
 
   /// Returns what the running task uses in [from, to), in J; if it is negative, it charges the battery.

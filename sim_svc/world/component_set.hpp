@@ -1,4 +1,4 @@
-// How the components of a robot find each other.
+// The component set lets the components of a robot find each other.
 #pragma once
 #include <string>
 #include <string_view>

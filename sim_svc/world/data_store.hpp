@@ -1,4 +1,4 @@
-/// What a robot has measured and not yet brought home.
+// The data store holds what a robot has measured and not yet brought home.
 #pragma once
 #include <cstdint>
 #include <map>
@@ -28,7 +28,7 @@ std::string_view name_of(Fate);
 /// Returns whether nothing can become of the product any more.
 bool is_final(Fate);
 
-/// Is data that a task has brought.
+/// Describes data that a task has brought.
 struct Product {
   std::string id;  ///< is the store's: the kind, or, after the first of it, kind-2, kind-3, …
   std::string kind;
@@ -42,7 +42,7 @@ struct Product {
   bool operator==(const Product&) const = default;
 };
 
-/// Is what of a store outlives the process that simulates it.
+/// Holds what of a store outlives the process that simulates it.
 struct DataMemory {
   std::vector<Product> products;
   std::map<std::string, std::uint32_t> made;  ///< kind → how many products of it there were

@@ -1,4 +1,4 @@
-// What a scenario may do to the world: faults, rocks, losses and changes.
+// Disturbances are what a scenario may do to the world: faults, rocks, losses and changes.
 #pragma once
 #include <optional>
 #include <string>
@@ -33,37 +33,38 @@ struct EnergyLoss {
   double joules = 0;
 };
 
-/// Lets the panel give less than it is told to, from now until `until`.
+/// Lets the panel give less than its model says, from now until `until`.
 struct GenerationLoss {
   std::string robot;
   double share = 1;  ///< of the told power that is left, 0 … 1
   temporal::Time until{};
 };
 
-/// A module works no more.
+/// Breaks a module for good.
 struct ModuleFailure {
   std::string module;
 };
 
-/// Nothing can be placed in a slot any more; nobody sees that before the slot is localized.
+/// Blocks a slot, in which nothing can be placed any more; nobody sees that before the slot is localized.
 struct SlotBlock {
   std::string slot;
 };
 
-/// A joint of an arm moves heavily from now on; friction and growth are shares of the joint's effort limit.
+/// Makes a joint of an arm move heavily from now on; friction and growth are shares of the joint's effort
+/// limit.
 struct JointWear {
   std::string joint;
   double friction = 0;  ///< Coulomb friction beside the joint's own
   double growth = 0;    ///< by which it grows for each rad or m of travel
 };
 
-/// The walls of a trench fall in.
+/// Lets the walls of a trench fall in.
 struct TrenchCollapse {
   std::string site;
   double share = 0.5;  ///< of its depth that is left, 0 … 1
 };
 
-/// Is what can go wrong within a component, whichever has the thing that is named.
+/// Names what can go wrong within a component, whichever has the thing that is named.
 using Mishap = std::variant<ModuleFailure, SlotBlock, JointWear, TrenchCollapse>;
 
 /// Lets a mishap befall the first component of the robot that has the thing.
@@ -72,7 +73,7 @@ struct ComponentMishap {
   Mishap what;
 };
 
-/// Lets the next success of the command be told without being true: nothing but time and energy has changed.
+/// Lets the next success of the command be hollow: nothing but time and energy has changed.
 struct HollowSuccess {
   std::string robot;
   std::string component;
@@ -85,7 +86,7 @@ struct EnergyDrop {
   double to_j = 0;
 };
 
-/// Lets it be so warm around all robots from now on.
+/// Sets the temperature of the surroundings of all robots from now on.
 struct SurroundingsChange {
   double kelvin = 0;
 };
@@ -97,7 +98,7 @@ struct SuddenHeat {
   double joules = 0;
 };
 
-/// Lets a component send at this share of its usual rate from now on.
+/// Sets the share of its usual rate at which a component sends from now on.
 struct RateChange {
   std::string robot;
   std::string component;
@@ -114,8 +115,8 @@ using Disturbance =
     std::variant<ComponentFault, RockFall, EnergyLoss, GenerationLoss, ComponentMishap, HollowSuccess,
                  EnergyDrop, SurroundingsChange, SuddenHeat, RateChange, ViewBlock, SoilChange>;
 
-/// Returns whether it would be another one if it came twice. What has happened to a robot is part of its world's
-/// memory, so that such a disturbance does not come again when the process that simulates it is started again.
+/// Returns whether a repetition would add to the effect. What has happened to a robot is part of its world's
+/// memory, so such a disturbance does not come again when the simulating process is restarted.
 bool adds_up(const Disturbance&);
 
 }  // namespace roci::sim::world

@@ -1,4 +1,5 @@
-/// What surrounds the robots of a simulated world and is the same for all: ground, rocks, windows of time.
+// The environment surrounds the robots of a simulated world and is the same for all: ground, rocks, windows
+// of time.
 #pragma once
 #include <cstddef>
 #include <map>
@@ -13,14 +14,14 @@
 
 namespace roci::sim::world {
 
-/// Is a boulder that no map shows, in metres.
+/// Describes a boulder that no map shows, in metres.
 struct Rock {
   double x = 0;
   double y = 0;
   double radius = 0;
 };
 
-/// Is the true ground.
+/// Holds the true ground.
 struct Ground {
   std::shared_ptr<const terrain::Site> site;  ///< empty in a world without ground
   std::vector<Rock> hidden_rocks;

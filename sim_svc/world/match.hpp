@@ -1,9 +1,9 @@
-// Cases for std::visit.
+// This file joins cases for std::visit.
 #pragma once
 
 namespace roci::sim::world {
 
-/// Is callable with whatever one of its cases takes, for std::visit.
+/// Accepts whatever one of its cases takes, for std::visit.
 template <class... Cases>
 struct Match : Cases... {
   using Cases::operator()...;

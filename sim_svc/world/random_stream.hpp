@@ -1,4 +1,4 @@
-// Noise that is the same for the same seed, whatever else is drawn.
+// Noise is the same for the same seed, whatever else is drawn.
 #pragma once
 #include <cstdint>
 #include <random>
@@ -6,8 +6,8 @@
 
 namespace roci::sim::world {
 
-/// Is one source of noise: the same seed and name give the same numbers, whatever the other sources draw. The
-/// transforms are our own, since the standard's distributions differ between libraries.
+/// Draws from one source of noise: the same seed and name give the same numbers, whatever the other sources
+/// draw. The transforms are our own, since the standard's distributions differ between libraries.
 class RandomStream {
  public:
   RandomStream(std::uint64_t seed, std::string_view name);

@@ -1,4 +1,4 @@
-// Observations of what has changed.
+// The reporter observes what has changed.
 #pragma once
 #include <map>
 #include <string>

@@ -17,7 +17,7 @@
 
 namespace roci::sim::world {
 
-/// Every component takes this command: its running task is broken off, and nothing else happens.
+/// Names the command that every component takes: its running task is broken off, and nothing else happens.
 inline constexpr char kStopCommand[] = "stop";
 
 /// Says how often the robot's numbers are reported, in s.
@@ -53,7 +53,7 @@ struct RobotSetup {
   std::optional<double> data_bytes{};          ///< room for data products; empty: it makes none
 };
 
-/// Is a command that a component took up; bench/kill counts these.
+/// Describes a command that a component took up; bench/kill counts these.
 struct Begun {
   temporal::Time at{};
   std::string robot;
@@ -61,7 +61,7 @@ struct Begun {
   Task task;
 };
 
-/// Is what of a robot outlives the process that speaks for it.
+/// Holds what of a robot outlives the process that speaks for it.
 struct RobotMemory {
   std::optional<Pose> pose;
   std::optional<double> energy_j;       ///< in its battery
@@ -74,9 +74,8 @@ struct RobotMemory {
 /// Runs the tasks of one robot's components; the world calls it in order of time.
 class Robot {
  public:
-  /// `first` says that it is the first robot of the world. A component of it that is the first of its type
-  /// draws from the stream named as the type; in all other streams the component's or the robot's name
-  /// enters, too.
+  /// Makes a robot; `first` says that it is the first one of the world. Its first component of a type draws
+  /// from the stream named as the type; all other streams also have the component's or the robot's name.
   Robot(RobotSetup, bool first, std::uint64_t seed);
 
   const std::string& name() const { return name_; }
@@ -86,7 +85,7 @@ class Robot {
   bool runs(const TaskKey&) const;
   /// Returns it as of the time up to which the robot was settled.
   RobotMemory memory(temporal::Time now) const;
-  /// Before the first task; the memory is of `at`.
+  /// Restores a memory of `at`, before the first task.
   void restore(const RobotMemory&, temporal::Time at);
   /// Returns whether it has sent data that are not received yet.
   bool has_data_under_way() const;
@@ -95,8 +94,7 @@ class Robot {
   /// Returns when the battery will be empty if everything goes on at its peak power, or nothing if never.
   std::optional<temporal::Time> flat_at(temporal::Time now) const;
 
-  // All that follows happens at `now`, up to which the robot has been settled; what it has to say goes to
-  // `out`.
+  // All that follows happens at `now`, up to which the robot has been settled; its reports go to `out`.
 
   /// Takes the command up or refuses it. Returns whether a task began.
   bool begin(const std::string& component, const Task&, temporal::Time now, Environment&, Outputs& out);
@@ -120,10 +118,10 @@ class Robot {
   void set_surroundings(double kelvin, temporal::Time now, Environment&, Outputs& out);
   void add_heat(const std::string& zone, double joules, temporal::Time now, Environment&, Outputs& out);
   void change_rate(const std::string& component, double factor, temporal::Time now);
-  /// Says that windows or heat are otherwise than was to be foreseen.
+  /// Tells components that windows or heat differ from what could be foreseen.
   void surroundings_changed(temporal::Time now, Environment&, Outputs& out);
   void heed(const DownlinkSchedule&);
-  /// The panel gives this share of its told power until then.
+  /// Lets the panel give this share of its modelled power until then.
   void lose_generation(double share, temporal::Time until);
   void suffer(const Mishap&, temporal::Time now, Environment&, Outputs& out);
 
@@ -170,7 +168,7 @@ class Robot {
   std::string name_;
   Body body_;
   std::optional<PowerParameters> power_;
-  double generation_ = 1;  // share of the told power, until dim_until_
+  double generation_ = 1;  // share of the modelled power, until dim_until_
   temporal::Time dim_until_{};
   TelemetryParameters telemetry_;
   std::vector<Part> parts_;

@@ -1,4 +1,5 @@
-/// Loose ground that no map shows and no camera sees: what a wheel finds under it. Only the world knows where it lies.
+// Soil here is loose ground that no map shows and no camera sees: what a wheel finds under it. Only the world knows
+// where it lies.
 #pragma once
 #include <cstdint>
 #include <map>
@@ -10,9 +11,9 @@
 
 namespace roci::sim::world {
 
-/// Is soil by its pressure-sinkage curve p = (k_c / b + k_phi) z^n (Bekker, "Introduction to Terrain-Vehicle Systems",
-/// 1969; b is the width of what presses, z the sinkage) and its shear strength c + p tan(phi), of which a shear
-/// displacement j brings up the share 1 - exp(-j / K) (Janosi and Hanamoto, 1961).
+/// Describes soil by its pressure-sinkage curve p = (k_c / b + k_phi) z^n (Bekker, "Introduction to Terrain-Vehicle
+/// Systems", 1969; b is the width of what presses, z the sinkage) and its shear strength c + p tan(phi), of which a
+/// shear displacement j brings up the share 1 - exp(-j / K) (Janosi and Hanamoto, 1961).
 struct Soil {
   double exponent = 1.1;                ///< n, above 0, at most 2
   double cohesive_modulus = 990;        ///< k_c, N/m^(n+1)
@@ -23,7 +24,7 @@ struct Soil {
   bool operator==(const Soil&) const = default;
 };
 
-/// Is where a soil lies, in metres of the map frame: within the outline, or, if it has none, the circle.
+/// Says where a soil lies, in metres of the map frame: within the outline, or, if it has none, the circle.
 struct SoilArea {
   std::string soil;  ///< a key of SoilLayer::soils
   terrain::Point centre;
@@ -32,7 +33,7 @@ struct SoilArea {
   bool operator==(const SoilArea&) const = default;
 };
 
-/// Says whether the point lies in the area.
+/// Returns whether the point lies in the area.
 bool contains(const SoilArea&, terrain::Point);
 
 /// Lets the run's seed place circles of a soil, anywhere in a box but not over certain discs.
@@ -54,8 +55,8 @@ struct SoilLayer {
 /// Returns the soil at the point, or null where the ground is firm. The areas' soils are all known.
 const Soil* soil_at(const SoilLayer&, terrain::Point);
 
-/// Turns what is to be scattered into areas: the same for the same layer and seed. A circle that finds no room in a
-/// hundred tries is left out.
+/// Scatters soil into areas, the same for the same layer and seed. A circle that finds no room in a hundred tries
+/// is left out.
 void scatter(SoilLayer&, std::uint64_t seed);
 
 }  // namespace roci::sim::world

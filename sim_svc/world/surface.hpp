@@ -1,5 +1,5 @@
-/// How the ground looks to a camera (what lights it, and what on it is unlike the rest; nobody drives differently for
-/// it), and the soil that no camera sees.
+// The surface is how the ground looks to a camera (what lights it, and what on it is unlike the rest; nobody drives
+// differently for it), and the soil that no camera sees.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -10,7 +10,7 @@
 
 namespace roci::sim::world {
 
-/// Is a direction of unit length in the map frame.
+/// Holds a direction of unit length in the map frame.
 struct Direction {
   double east = 0;
   double north = 0;
@@ -33,7 +33,7 @@ Direction toward(const Sun&, temporal::Time at);
 /// bands, `spotted` ground with light spherules.
 enum class Look : std::uint8_t { bright, dark, layered, spotted };
 
-/// Is a target that is unlike the ground around it, in metres. It is low enough to be driven over.
+/// Describes a target that is unlike the ground around it, in metres. It is low enough to be driven over.
 struct Oddity {
   double x = 0;
   double y = 0;

@@ -1,4 +1,4 @@
-/// How warm the parts of a robot are, and what keeps them so.
+// The thermal model says how warm the parts of a robot are, and what keeps them so.
 #pragma once
 #include <limits>
 #include <map>
@@ -19,7 +19,7 @@ struct ZoneParameters {
   double loss_w_k = 0.5;        ///< to the surroundings, above 0
   double heater_w = 100;        ///< the most that the heater gives
   double keep_k = 150;          ///< the heater never lets it get colder, if it can
-  double work_k = 220;          ///< to which it is heated for work; at least keep_k
+  double work_k = 220;          ///< temperature for work; at least keep_k
   double least_k = 0;           ///< colder is out of range
   double most_k = std::numeric_limits<double>::infinity();  ///< hotter is out of range
   double start_k = 150;
@@ -28,8 +28,8 @@ struct ZoneParameters {
 /// Describes the heat of a robot.
 struct ThermalParameters {
   double surroundings_k = 100;
-  double waste_factor = 1;  ///< of all waste heat, as against what components tell
-  double loss_factor = 1;   ///< of all losses, as against the zones' own
+  double waste_factor = 1;  ///< factor on all waste heat that components report
+  double loss_factor = 1;   ///< factor on the zones' own losses
   std::vector<ZoneParameters> zones;
 };
 
@@ -49,10 +49,10 @@ class Thermal {
 
   /// Keeps the zone warm for work from now on; `who` is any object that stands for whoever does.
   void hold(std::string_view zone, const void* who, temporal::Time now);
-  /// Takes that back, and the waste heat of the same object with it.
+  /// Releases the zone, and removes the waste heat of the same object.
   void release(std::string_view zone, const void* who, temporal::Time now);
   bool held(std::string_view zone) const;
-  /// Lets the object leave so much heat in the zone, in W, in place of what it left before.
+  /// Sets the heat that the object leaves in the zone, in W.
   void set_waste(std::string_view zone, const void* who, double watts, temporal::Time now);
   /// Returns when the zone is as warm as its work needs, as things stand: `now` if it is, nothing if it will never be.
   std::optional<temporal::Time> ready_at(std::string_view zone, temporal::Time now) const;

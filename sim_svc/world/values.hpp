@@ -29,17 +29,17 @@ struct TaskKey {
   std::string activity;
   std::uint32_t attempt = 0;
   std::string commander{};  ///< empty where commanders are not told apart
-  std::uint64_t epoch = 0;  ///< is the commander's when it first issued the command
+  std::uint64_t epoch = 0;  ///< commander's epoch when it first issued the command
   auto operator<=>(const TaskKey&) const = default;
 };
 
-/// Is one command as a component runs it.
+/// Describes one command as a component runs it.
 struct Task {
   TaskKey key;
   std::string command;
   std::map<std::string, std::string> arguments;
-  /// Bounds a repair: a component that repairs something by itself is done with it by then (R146). If it is
-  /// empty, it takes its time.
+  /// Bounds a repair: a component that repairs something by itself is done with it by then (R146). Empty:
+  /// there is no bound.
   std::optional<temporal::Time> latest_end{};
 };
 
@@ -53,11 +53,11 @@ struct Failure {
 /// Says how a running task ended by itself; it succeeded if this is empty.
 using Ending = std::optional<Failure>;
 
-/// Says what became of a task. One that is `repairing` (R146) goes on, after a trouble that its component
-/// sees to.
+/// Says what became of a task. One that is `repairing` (R146) goes on while its component deals with a
+/// trouble.
 enum class TaskStage { accepted, rejected, repairing, completed, failed, cancelled };
 
-/// Holds what a task came to that ran and ended.
+/// Holds the results of a task that ran and ended.
 struct Results {
   temporal::Duration duration{};                  ///< runs from its begin to its end
   double energy_j = 0;                            ///< that its component used for it
@@ -65,15 +65,15 @@ struct Results {
   bool operator==(const Results&) const = default;
 };
 
-/// Is something physical that a component has just done: a motion that began, an image that was taken, a sample
-/// that was picked. It does not come again by being asked for twice.
+/// Describes something physical that a component has just done: a motion that began, an image that was taken, a
+/// sample that was picked. It does not come again by being asked for twice.
 struct PhysicalEffect {
   std::string kind;
   std::string object;  ///< that it was done to
 };
 
-/// Is such an effect with what caused it. All effects in a world are told, whoever was behind the command: what an
-/// owner's rules let pass is seen here, not what it was asked for (bench/kill counts them).
+/// Holds such an effect with its cause. All effects in a world are reported, whoever sent the command: they show
+/// what an owner's rules let pass, not what the owner was asked for (bench/kill counts them).
 struct Effect {
   temporal::Time at{};
   std::string robot;
@@ -84,18 +84,18 @@ struct Effect {
 
 // These leave the world. All values carry the exact time at which they came about.
 
-/// Is the newest word on a task; the last one has a stage other than `accepted` and `repairing`.
+/// Holds the newest word on a task; the last one has a stage other than `accepted` and `repairing`.
 struct TaskReport {
   TaskKey key;
   TaskStage stage = TaskStage::accepted;
   std::string code;
   std::string reason;
   temporal::Time at{};
-  std::optional<Results> results{};  ///< are set for a task that ran and ended
+  std::optional<Results> results{};  ///< set for a task that ran and ended
   bool operator==(const TaskReport&) const = default;
 };
 
-/// Is a timeline's new value; `timeline` is its whole name, `<robot>.<…>`, or that of a window.
+/// Holds a timeline's new value; `timeline` is its whole name, `<robot>.<…>`, or that of a window.
 struct Observed {
   std::string timeline;
   temporal::Value value;
@@ -103,7 +103,7 @@ struct Observed {
   bool operator==(const Observed&) const = default;
 };
 
-/// Is an image that a robot has taken.
+/// Describes an image that a robot has taken.
 struct Image {
   std::string id;
   std::string robot;
@@ -118,7 +118,7 @@ struct Image {
   bool operator==(const Image&) const = default;
 };
 
-/// Is a rock that no map shows, met by a robot; all robots know it by the same id.
+/// Describes a rock that no map shows, met by a robot; all robots know it by the same id.
 struct RockSeen {
   std::string id;
   std::string robot;
@@ -130,10 +130,10 @@ struct RockSeen {
   bool operator==(const RockSeen&) const = default;
 };
 
-/// Is ground that a robot has measured and that somebody must not drive over, as a circle.
+/// Describes ground that a robot has measured and that somebody must not drive over, as a circle.
 struct SoilMarked {
   std::string id;
-  std::string robot;  ///< that has found it
+  std::string robot;  ///< robot that has found it
   std::string instrument;
   std::string judged_for;  ///< who must not go there
   double x = 0;            ///< m
@@ -168,7 +168,7 @@ struct MotionWanted {
   bool operator==(const MotionWanted&) const = default;
 };
 
-/// A Product says what has become of it by now.
+/// Holds one output of the world; a Product says what has become of it by now.
 using Output =
     std::variant<TaskReport, Observed, Image, RockSeen, PathWanted, MotionWanted, Product, SoilMarked>;
 using Outputs = std::vector<Output>;
@@ -180,7 +180,7 @@ struct Way {
   std::vector<terrain::Point> points;
 };
 
-/// Is a commanded point of a joint-space trajectory: seconds since its start, rad (or m) per joint.
+/// Holds a commanded point of a joint-space trajectory: seconds since its start, rad (or m) per joint.
 struct JointTarget {
   double time_s = 0;
   std::vector<double> joints;

@@ -1,4 +1,4 @@
-// Timelines that are true in given intervals, such as a relay above the horizon.
+// Windows are timelines that are true in given intervals, such as a relay above the horizon.
 #pragma once
 #include <optional>
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace roci::sim::world {
 
-/// Is a Boolean timeline that is true in [opens, closes) of each interval. Intervals ascend and do not
+/// Describes a Boolean timeline that is true in [opens, closes) of each interval. Intervals ascend and do not
 /// overlap.
 struct Window {
   std::string timeline;

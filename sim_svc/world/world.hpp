@@ -23,15 +23,15 @@ struct WorldSetup {
   std::vector<RobotSetup> robots;
 };
 
-/// Is a task for a component.
+/// Holds a task for a component.
 struct Order {
   std::string robot;  ///< empty: the only one
   std::string component;
   Task task;
 };
 
-/// Is what of a world outlives the process that simulates it, as a robot outlives the one that speaks for it.
-/// Disturbances of the ground are no part of it: whoever caused them causes them again.
+/// Holds what of a world outlives the process that simulates it, as a robot outlives the one that speaks for
+/// it. Disturbances of the ground are no part of it: whoever caused them causes them again.
 struct WorldMemory {
   temporal::Time at{};
   std::map<std::string, RobotMemory> robots;

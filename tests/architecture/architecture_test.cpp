@@ -56,6 +56,13 @@ TEST(ArchitectureTest, EachRuleCanBeBroken) {
   SourceFile source = file("exec_svc/a.cpp", "chrono");
   source.lines = {"const auto t = std::chrono::steady_clock::now();"};
   EXPECT_THAT(broken(source), ElementsAre(HasSubstr("asks the system for the time")));
+  for (const char* line : {"fs::rename(next, file);", "  std::filesystem::rename(next, file, error);",
+                           "rename(next.c_str(), file.c_str());"}) {
+    source.lines = {line};
+    EXPECT_THAT(broken(source), ElementsAre(HasSubstr("core/durable does, and syncs its folder"))) << line;
+  }
+  source.lines = {"  rename(activity.parent);"};
+  EXPECT_THAT(broken(source), IsEmpty()) << "of something else than a file";
   source.lines = {"if (mission == \"planetary\") return;"};
   EXPECT_THAT(broken(source), ElementsAre(HasSubstr("missions are data")));
   source.lines = {"endpoint.partitions = {\"roci.team\"};"};
@@ -82,6 +89,32 @@ TEST(ArchitectureTest, ACommentFitsTheScreen) {
   EXPECT_THAT(broken_rules({source}), ElementsAre(HasSubstr("wider than 120 columns")));
 }
 
+TEST(ArchitectureTest, AHeaderSaysWhatItOffers) {
+  const auto broken = [](std::vector<std::string> lines) {
+    return broken_rules({{"core/temporal/a.hpp", {}, std::move(lines)}});
+  };
+  EXPECT_THAT(broken({"// The head.", "class Plan final : public Base<int> {", "};"}),
+              ElementsAre(HasSubstr("Plan has no comment above it")));
+  EXPECT_THAT(broken({"/// Holds a plan.", "class Plan {", "};", "", "enum class Kind {", "  a", "};"}),
+              ElementsAre(HasSubstr("Kind has no comment")));
+  EXPECT_THAT(broken({"struct Outer::Inner {", "};"}), ElementsAre(HasSubstr("Outer::Inner has no comment")));
+  EXPECT_THAT(broken({"template <class T>", "requires std::integral<T>", "struct Box {"}),
+              ElementsAre(HasSubstr("Box has no comment")));
+  EXPECT_THAT(broken({"template <class T>", "std::vector<T> sorted(std::vector<T> items,", "    bool up) {"}),
+              ElementsAre(HasSubstr("sorted has no comment")));
+  EXPECT_THAT(
+      broken({"/// Holds one T.", "template <class T>", "struct Box {", "  struct Lid {", "  };", "};"}),
+      IsEmpty());
+  EXPECT_THAT(broken({"class Node;", "struct Wide", "    : Base;", "struct Empty {};  ///< stands for none"}),
+              IsEmpty());
+  EXPECT_THAT(broken({"template <>", "struct std::hash<Id> {", "};"}), IsEmpty());
+  EXPECT_THAT(broken({"namespace roci::temporal {", "namespace detail {", "struct Part {", "};",
+                      "}  // namespace detail", "}  // namespace roci::temporal"}),
+              IsEmpty());
+  EXPECT_THAT(broken({"template <class A>", "void fields(A& a) {", "}"}), IsEmpty());
+  EXPECT_THAT(broken_rules({{"core/temporal/a.cpp", {}, {"struct Local {", "};"}}}), IsEmpty());
+}
+
 SourceFile in_namespace(const std::string& path, const std::string& name) {
   return {path, {}, {"namespace " + name + " {", "int f();", "}  // namespace " + name}};
 }
@@ -105,7 +138,7 @@ TEST(ArchitectureTest, ClassesOfOthersMayBeDeclared) {
   SourceFile source = in_namespace("arm_svc/a.hpp", "roci::arm");
   source.lines.insert(source.lines.begin(), {"namespace YAML {", "class Node;", "}"});
   EXPECT_THAT(broken_rules({source}), IsEmpty());
-  source.lines[1] = "class Node {};";
+  source.lines[1] = "class Node {};  ///< of theirs";
   EXPECT_THAT(broken_rules({source}), ElementsAre(HasSubstr("opens namespace YAML")));
 }
 

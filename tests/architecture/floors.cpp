@@ -17,11 +17,11 @@ struct House {
 
 const std::vector<House> kHouses = {
     {"core/",
-     {"core/temporal/", "core/words/", "core/pseudorandom/", "core/mission/", "core/pddl/",
+     {"core/durable/", "core/temporal/", "core/words/", "core/pseudorandom/", "core/mission/", "core/pddl/",
       "core/kinematics/", "core/terrain/"}},
     {"services/",
      {"services/bounds/", "services/clock/", "services/link/", "services/log/", "services/wire/",
-      "services/transport/", "services/certificate/", "services/vendors/", "services/topics.hpp",
+      "services/transport/", "services/certificate/", "services/vendors/", "services/topics/",
       "services/health/", "services/node/", "services/rpc/", "services/", "services/owner/",
       "services/commander/", "services/security/", "services/process/", "services/launch/"}},
     {"planner_svc/",
@@ -41,6 +41,10 @@ const std::vector<House> kHouses = {
       "planner_svc/timeline_htn/request/", "planner_svc/timeline_htn/checking/",
       "planner_svc/timeline_htn/search/", "planner_svc/timeline_htn/extraction/",
       "planner_svc/timeline_htn/adapter/", "planner_svc/timeline_htn/cli/", "planner_svc/timeline_htn/"}},
+    {"exec_svc/",
+     {"exec_svc/archive/", "exec_svc/executive/", "exec_svc/mission/", "exec_svc/goals/", "exec_svc/orders/",
+      "exec_svc/beliefs/", "exec_svc/problem/", "exec_svc/reactor/", "exec_svc/journal/", "exec_svc/standby/",
+      "exec_svc/", "exec_svc/replay/", "exec_svc/trace/"}},
     {"sim_svc/",
      {"sim_svc/world/", "sim_svc/setup/", "sim_svc/components/", "sim_svc/scenario/", "sim_svc/"}},
 };

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "tests/architecture/documentation.hpp"
 #include "tests/architecture/floors.hpp"
 #include "tests/architecture/namespaces.hpp"
 #include "tests/architecture/planner_rules.hpp"
@@ -135,6 +136,18 @@ void check_clock(const SourceFile& file, Complaints& out) {
   }
 }
 
+// Who renames a file must sync its folder, or a loss of power brings the old one back.
+void check_renames(const SourceFile& file, Complaints& out) {
+  if (file.under("core/durable")) return;
+  for (const std::string& line : file.lines) {
+    const auto call = line.find("rename(");
+    const bool of_paths = call != std::string::npos && ((call >= 2 && line.compare(call - 2, 2, "::") == 0) ||
+                                                        line.find("c_str()", call) != std::string::npos);
+    if (of_paths || line.find("renameat") != std::string::npos)
+      out.push_back(file.path + ": renames a file; core/durable does, and syncs its folder");
+  }
+}
+
 void check_size_and_names(const SourceFile& file, Complaints& out) {
   if (file.lines.size() > kLongestFile) {
     out.push_back(file.path + ": " + std::to_string(file.lines.size()) + " lines; no file is longer than " +
@@ -213,12 +226,14 @@ std::vector<std::string> broken_rules(const std::vector<SourceFile>& files) {
     check_independent_checker(file, out);
     check_simulator(file, out);
     check_clock(file, out);
+    check_renames(file, out);
     check_size_and_names(file, out);
     check_missions(file, out);
     check_partitions(file, out);
     check_torn_comments(file, out);
     check_width_of_comments(file, out);
   }
+  std::ranges::copy(undocumented(files), std::back_inserter(out));
   std::ranges::copy(foreign_namespaces(files), std::back_inserter(out));
   std::ranges::copy(upward_includes(files), std::back_inserter(out));
   const Complaints planner = broken_planner_rules(files);

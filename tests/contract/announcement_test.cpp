@@ -4,7 +4,7 @@
 
 #include <gmock/gmock.h>
 
-#include "services/topics.hpp"
+#include "services/topics/topics.hpp"
 #include "tests/contract/support/inbox.hpp"
 #include "tests/contract/support/pairing.hpp"
 #include "tests/contract/support/profiles.hpp"

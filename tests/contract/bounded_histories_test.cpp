@@ -9,7 +9,7 @@
 #include <fstream>
 #include <mutex>
 
-#include "services/topics.hpp"
+#include "services/topics/topics.hpp"
 #include "services/transport/scope.hpp"
 #include "services/transport/type_support.hpp"
 #include "services/vendors/history_limits.hpp"
@@ -40,7 +40,7 @@ std::size_t flood_keys() {
 }
 
 template <class T>
-transport::EndpointDescription live_endpoint(const Topic<T>& topic) {
+transport::EndpointDescription live_endpoint(const topics::Topic<T>& topic) {
   return {topic.name, transport::describe_type<T>(topic.type_name),
           transport::writer_qos(topic.qos, topic.clocking, clock::ClockMode::live),
           transport::partitions_of(topic.scope, "")};

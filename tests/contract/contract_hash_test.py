@@ -34,7 +34,7 @@ class ContractHash(unittest.TestCase):
         return {name for name in self.base.keys() | other.keys() if self.base.get(name) != other.get(name)}
 
     def test_each_topic_type_has_one(self):
-        table = (ROOT / "services" / "topics.hpp").read_text(encoding="utf-8")
+        table = (ROOT / "services" / "topics" / "topics.hpp").read_text(encoding="utf-8")
         self.assertEqual(set(self.base), set(re.findall(r'"roci::v1::(\w+)"', table)))
         self.assertEqual(len(set(self.base.values())), len(self.base))
 

@@ -115,7 +115,6 @@ class EngineAndExecutive : public ::testing::TestWithParam<Vendors> {
       EXPECT_EQ(std::ranges::count(events_, fault), 0) << fault;
   }
 
- private:
   void observe(const std::string& timeline, const temporal::Value& value) {
     v1::Observation out;
     out.timeline(timeline);
@@ -124,6 +123,7 @@ class EngineAndExecutive : public ::testing::TestWithParam<Vendors> {
     observations_.write(out);
   }
 
+ private:
   void tell(const v1::Command& command, v1::CommandStage stage) {
     v1::CommandAck out;
     out.commander(command.commander());
@@ -169,7 +169,11 @@ class EngineAndExecutive : public ::testing::TestWithParam<Vendors> {
   const fs::path folder_ = fs::temp_directory_path() /
                            ("roci_engine_" + std::to_string(::getpid()) + "_" + std::to_string(domain_.id()));
   services::SimRun run_{{"sim_svc", "planner_svc", "exec_svc"}, domain_.id()};
+
+ protected:
   services::Node& robot_ = waiting(run_);
+
+ private:
   services::Publisher<v1::Goal> goals_ = services::advertise(robot_, topics::goal);
   services::Publisher<v1::Observation> observations_ = services::advertise(robot_, topics::observation);
   services::Publisher<v1::DataProduct> products_ = services::advertise(robot_, topics::data_product);
@@ -195,7 +199,10 @@ class EngineAndExecutive : public ::testing::TestWithParam<Vendors> {
   std::set<std::string> activities_;  // of all versions of the plan
 };
 
+// For a while the battery's gauge tells of less than all needs, so that cycles repair the plan, and place it anew later.
 TEST_P(EngineAndExecutive, DoAllThatTheNetworkAsksForAndTellPartsOfCyclesInTheirOrder) {
+  robot_.at(100s, [this] { observe("lander.battery", 250000.0); });
+  robot_.at(310s, [this] { observe("lander.battery", 590000.0); });
   fly();
   expect_all_done();
   const std::vector<std::string> order{"commit", "consolidate", "schedule", "repair", "optimize"};
@@ -212,7 +219,7 @@ TEST_P(EngineAndExecutive, DoAllThatTheNetworkAsksForAndTellPartsOfCyclesInTheir
       seen.insert(part);
     }
   }
-  EXPECT_THAT(seen, IsSupersetOf({"commit", "consolidate", "schedule"}));
+  EXPECT_EQ(seen, std::set<std::string>(order.begin(), order.end()));
 }
 
 // Every downlink that is told is one of the plan, versions go up,

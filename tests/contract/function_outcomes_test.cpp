@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "services/process/domain_claim.hpp"
+#include "services/wire/plan_wire.hpp"
 #include "tests/unit/planner_svc/service/road_planning.hpp"
 
 namespace roci::planner {
@@ -15,21 +16,31 @@ namespace {
 using namespace std::chrono_literals;
 using namespace testing;
 using ::testing::AllOf;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
 class FunctionOutcomes : public ::testing::TestWithParam<std::pair<const char*, RoadVendors>> {
  protected:
   // Asked at 1 s for a way from a to c.
-  void fly(bool offered = true, const std::function<void(RoadPlanning&)>& prepare = {}) {
+  void fly(bool offered = true, const std::function<void(RoadPlanning&)>& prepare = {},
+           const v1::PlanRequest& request = plan_request(kRoadDomain, road_problem())) {
     const services::process::DomainClaim domain;
     RoadPlanning planning(GetParam().second, domain.id(), offered);
     if (prepare) prepare(planning);
-    planning.ask(1s, plan_request(kRoadDomain, road_problem()));
+    planning.ask(1s, request);
     planning.run_until(100s);
     ASSERT_EQ(planning.replies().size(), 1U) << "one answer, whatever happened";
     ASSERT_EQ(planning.replies()[0].result.status, services::rpc::CallStatus::ok);
     time = planning.replies()[0].time;
     reply = planning.replies()[0].result.reply;
+  }
+
+  static v1::PlanGoal goal_of(const std::string& id, const std::string& fact) {
+    v1::PlanGoal goal;
+    goal.issuer("ground");
+    goal.id(id);
+    goal.achieved(services::wire::to_wire(temporal::compare(fact, temporal::ConditionOp::eq, true)));
+    return goal;
   }
 
   // The owner answers, 250 ms later, with this for the tuple (a, c).
@@ -93,18 +104,50 @@ TEST_P(FunctionOutcomes, ATupleOfWhichNoValueWasFoundIsGoneAround) {
   EXPECT_EQ(steps_of(reply.solution()), "go a b, go b c");
 }
 
-TEST_P(FunctionOutcomes, WhereNoValueWasFoundNothingIsProved) {
-  fly(true, [](RoadPlanning& planning) {
-    planning.owner_answers([&planning](const v1::FunctionRequest& request, auto responder) {
+// The owner that searches harder by each request is asked again before the call ends without a plan.
+TEST_P(FunctionOutcomes, WhatIsFoundWhenAskedAgainIsPlannedWith) {
+  std::vector<std::size_t> asked;
+  fly(true, [&](RoadPlanning& planning) {
+    planning.owner_answers([&](const v1::FunctionRequest& request, auto responder) {
       v1::FunctionReply answer = ten_seconds(request, planning.owner().now());
-      for (auto& outcome : answer.results()[0].outcomes()) outcome = v1::FUNCTION_UNKNOWN;
+      asked.push_back(request.batches()[0].tuples().size() / 2);
+      if (asked.size() < 3)
+        for (auto& outcome : answer.results()[0].outcomes()) outcome = v1::FUNCTION_UNKNOWN;
       responder.reply(answer);
     });
   });
+  ASSERT_EQ(reply.verdict_code(), v1::VERDICT_SOLVED) << reply.reason();
+  EXPECT_EQ(steps_of(reply.solution()), "go a c");
+  EXPECT_THAT(asked, ElementsAre(9, 9, 9));
+}
+
+TEST_P(FunctionOutcomes, WhereNoValueIsEverFoundNothingIsProvedAndTheGoalIsNamed) {
+  v1::PlanRequest request = plan_request(kRoadDomain, road_problem("(and (at c) (at a))"));
+  request.goals() = {goal_of("stay", "(at a)"), goal_of("trip", "(at c)")};
+  std::vector<std::size_t> asked;
+  fly(
+      true,
+      [&](RoadPlanning& planning) {
+        planning.owner_answers([&](const v1::FunctionRequest& call, auto responder) {
+          v1::FunctionReply answer = ten_seconds(call, planning.owner().now());
+          const auto& tuples = call.batches()[0].tuples();
+          asked.push_back(tuples.size() / 2);
+          for (std::size_t i = 0; i < tuples.size(); i += 2)
+            if (call.objects()[tuples[i + 1]].name() == "c")
+              answer.results()[0].outcomes()[i / 2] = v1::FUNCTION_UNKNOWN;
+          responder.reply(answer);
+        });
+      },
+      request);
   EXPECT_EQ(reply.verdict_code(), v1::VERDICT_TIMEOUT);
-  EXPECT_THAT(reply.reason(), HasSubstr("not known: roads_svc found no way for (travel_time a a) and 8 more "
+  EXPECT_THAT(reply.reason(), HasSubstr("not known: roads_svc found no way for (travel_time a c) and 2 more "
                                         "with the effort spent; ask again or give it more"));
-  EXPECT_TRUE(reply.blocking().empty());
+  ASSERT_EQ(reply.blocking().size(), 1U) << "the other goal stands on no value";
+  EXPECT_EQ(reply.blocking()[0].id(), "trip");
+  EXPECT_EQ(reply.blocking()[0].reason(),
+            "no way to c is known: roads_svc found none with the effort spent (travel_time, model 7), which "
+            "proves nothing; ask again, or let it search longer; asked 5 times");
+  EXPECT_THAT(asked, ElementsAre(9, 3, 3, 3, 3)) << "what was found is not asked for again";
 }
 
 TEST_P(FunctionOutcomes, NobodyOwnsTheFunction) {

@@ -6,8 +6,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <fstream>
-#include <sstream>
 
 #include "services/clock/wall.hpp"
 #include "services/node.hpp"
@@ -16,6 +14,7 @@
 #include "tests/contract/hostile/participant.hpp"
 #include "tests/contract/support/pairing.hpp"
 #include "tests/contract/support/peers.hpp"
+#include "tests/contract/support/udp_sockets.hpp"
 
 namespace roci::services::contract {
 namespace {
@@ -69,12 +68,7 @@ TEST_P(Hostile, StatisticsInTheMiddleOfAMessageAreNotRead) {
   ChildProcess reader(reader_command(GetParam(), domain_.id()));
   ASSERT_TRUE(reader.wait_for("ready"));
   const hostile::Participant attacker(kLoopback, domain_.id(), hostile::kEprosima, 1, "");
-  for (const std::uint8_t fill : {0xff, 0x00, 0x7f, 0x01}) {
-    auto message = attacker.message();
-    message.submessage(0x80, 0, hostile::Bytes(56, fill)).submessage(0x01, 0, hostile::Bytes(60, fill));
-    attacker.send_to_discovery(message);
-    attacker.send_to_readers(message);
-  }
+  attacker.send_statistics_in_the_middle();
   expect_still_reading(reader);
 }
 
@@ -115,29 +109,11 @@ TEST_P(Hostile, WhatIsRefusedIsToldByAnEvent) {
   EXPECT_THAT(told.back().properties().at(3).value(), testing::StartsWith("127.0.0.1:"));
 }
 
-// The sockets of all processes on this host that are bound to the ports of a domain, as /proc/net/udp writes them.
-std::vector<std::string> addresses_bound(int domain) {
-  std::vector<std::string> addresses;
-  std::ifstream table("/proc/net/udp");
-  std::string line;
-  std::getline(table, line);
-  while (std::getline(table, line)) {
-    std::istringstream words(line);
-    std::string slot, local;
-    words >> slot >> local;
-    const int first = transport::first_participant_port(domain);
-    const int port = std::stoi(local.substr(9), nullptr, 16);
-    if (port >= first && port < first + 2 * transport::kMaxParticipantsPerHost)
-      addresses.push_back(local.substr(0, 8));
-  }
-  return addresses;
-}
-
 TEST_P(Hostile, SocketsAreBoundToLoopbackAlone) {
   ChildProcess reader(reader_command(GetParam(), domain_.id()));
   ASSERT_TRUE(reader.wait_for("ready"));
-  EXPECT_THAT(addresses_bound(domain_.id()),
-              testing::AllOf(testing::SizeIs(testing::Ge(2U)), testing::Each("0100007F")));
+  EXPECT_THAT(udp_addresses_of(reader.pid()),
+              testing::AllOf(testing::SizeIs(testing::Ge(2U)), testing::Each("127.0.0.1")));
   EXPECT_EQ(reader.finish(), 0);
 }
 

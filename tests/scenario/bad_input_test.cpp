@@ -10,7 +10,9 @@
 #include <fstream>
 #include <sstream>
 
+#include "exec_svc/journal/format.hpp"
 #include "tests/scenario/flight.hpp"
+#include "tests/unit/exec_svc/golden/golden.hpp"
 
 namespace roci::scenario {
 namespace {
@@ -76,6 +78,24 @@ TEST(NewerJournal, EndsTheRunWithCodeTwoAndTheRemedy) {
   EXPECT_THAT(ended.output, AllOf(HasSubstr("journal.sqlite is not a usable journal: it is of format 99"),
                                   HasSubstr("go on with the version that wrote it")));
   fs::remove_all(folder);
+}
+
+// Their bytes mean something else there, so that none is read.
+TEST(InputsOfAnotherVersion, AreNotReplayed) {
+  const fs::path file =
+      fs::temp_directory_path() / ("roci_other_inputs_" + std::to_string(::getpid()) + ".sqlite");
+  fs::remove(file);
+  exec::testing::make_golden_journal(1, file);
+  for (std::int64_t version = 1; version <= exec::journal::kInputFormat + 1; ++version) {
+    if (version == exec::journal::kInputFormat) continue;
+    const std::string number = std::to_string(version);
+    exec::testing::execute(file, "UPDATE number SET value = " + number + " WHERE name = 'format'");
+    const Ended ended = run("roci-replay " + file.string() + " 2>&1");
+    EXPECT_EQ(ended.exit_code, 3);
+    EXPECT_THAT(ended.output, AllOf(HasSubstr("holds inputs of format " + number + ", this"),
+                                    HasSubstr("repeat the run with the version that flew it")));
+  }
+  for (const char* suffix : {"", "-wal", "-shm"}) fs::remove(file.string() + suffix);
 }
 
 // What a unit of systemd starts: the service that the mission's list has under this name.

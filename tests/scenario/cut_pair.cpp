@@ -3,10 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <set>
-#include <utility>
 
 #include "services/process/domain_claim.hpp"
+#include "tests/scenario/effects.hpp"
 #include "tests/scenario/flight.hpp"
 
 namespace roci::scenario {
@@ -75,10 +74,7 @@ void expect_nothing_lost(const Cut& cut) {
     EXPECT_EQ(steps["led"].printed, nlohmann::json({1, stays ? 0 : 1})) << "nobody else ever led\n"
                                                                         << ended.output;
   }
-  ASSERT_TRUE(steps["begun"].printed.is_array());
-  std::set<std::pair<std::string, int>> begun;
-  for (const nlohmann::json& command : steps["begun"].printed)
-    EXPECT_TRUE(begun.emplace(command.value("activity", ""), command.value("attempt", 0)).second) << command;
+  expect_done_once(steps["effects"].printed);
 }
 
 }  // namespace roci::scenario

@@ -7,7 +7,7 @@
 # The hosts are network namespaces of its own, on a bridge in a fourth; no packet leaves them. Needs root.
 # Prints steps as ground_and_kills.sh does: flying, cut (the pair as the robot's host sees it), add (a goal sent
 # meanwhile), recall (of goal depot, with CUT leader or merging, from the host that is cut off), hold (an order, with CUT leader, from there), healed, ended (goals as they are in the
-# end), lost (how often the first executive says that the order is not in force), and, when all is ended, robot, first, second (exit code and summary of each launcher), begun (what the robot did) and
+# end), lost (how often the first executive says that the order is not in force), and, when all is ended, robot, first, second (exit code and summary of each launcher), effects (what the robot did) and
 # led (how often each executive began to lead).
 set -uo pipefail
 bin=$1 mission=$2 dds=$3 domain=$4 cut=$5 clock=$6 speed=$7
@@ -102,6 +102,6 @@ for host in robot first second; do
   wait ${!host}
   step $host $? "$(tail -n 1 "$folder/$host.summary")"
 done
-step begun 0 "$(tr -d '\n' <"$folder/robot/begun.json")"
+step effects 0 "[$(paste -sd , "$folder/robot/effects.jsonl")]"
 for host in first second; do grep -c 'leads in epoch' "$folder/$host"/exec_svc*.log; done |
   paste -sd , | { read -r counts; step led 0 "[$counts]"; }

@@ -2,7 +2,7 @@
 # Flies a mission live with a pair of executives; the owner of commands hangs, and in the same moment the executive that leads is killed.
 #   dead_owner.sh BIN_FOLDER MISSION DDS DOMAIN SPEED
 # Prints steps as ground_and_kills.sh does: flying (the status), lacks (the log's line of the other executive that would lead, before the owner is
-# back), launch (exit code and summary) and begun (what the robot did).
+# back), launch (exit code and summary) and effects (what the robot did).
 set -uo pipefail
 bin=$1 mission=$2 dds=$3 domain=$4 speed=$5
 folder=$(mktemp -d)
@@ -26,4 +26,4 @@ grep -qm1 'would lead' < <(tail -q -n +1 -F --pid=$owner "$folder"/run/exec_svc*
 step lacks 0 "\"$(grep -h 'would lead' "$folder"/run/exec_svc*.log | tail -n 1)\""
 wait $launcher
 step launch $? "$(tail -n 1 "$folder/summary")"
-step begun 0 "$(tr -d '\n' <"$folder/run/begun.json")"
+step effects 0 "[$(paste -sd , "$folder/run/effects.jsonl")]"

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <sstream>
 
 #include "tests/scenario/flight.hpp"
@@ -78,15 +80,54 @@ std::pair<int, int> Course::blocks_and_those_unreleased() const {
   return out;
 }
 
+namespace {
+
+// Words of each line of the flight's own trace, behind its time in seconds.
+std::vector<std::pair<double, std::vector<std::string>>> trace_of(const std::filesystem::path& run_folder) {
+  std::vector<std::pair<double, std::vector<std::string>>> out;
+  std::istringstream lines(run("roci-trace print " + (run_folder / "journal.sqlite").string()).output);
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream text(line);
+    double at_us = 0;
+    if (!(text >> at_us)) continue;  // the first line
+    out.push_back({at_us / 1e6, {std::istream_iterator<std::string>(text), {}}});
+  }
+  return out;
+}
+
+}  // namespace
+
+std::map<std::string, std::vector<Reading>> readings(const std::filesystem::path& run_folder,
+                                                     const std::string& prefix) {
+  std::map<std::string, std::vector<Reading>> out;
+  for (const auto& [at_s, words] : trace_of(run_folder))
+    if (words.size() > 2 && words[0] == "observation" && words[1].starts_with(prefix))
+      out[words[1]].push_back({at_s, words[2]});
+  return out;
+}
+
 std::map<std::string, std::vector<std::string>> observed(const std::filesystem::path& run_folder,
                                                          const std::string& prefix) {
   std::map<std::string, std::vector<std::string>> out;
-  std::istringstream lines(run("roci-trace print " + (run_folder / "journal.sqlite").string()).output);
-  for (std::string line; std::getline(lines, line);) {
-    std::istringstream words(line);
-    std::string at, kind, timeline, value;
-    if (words >> at >> kind >> timeline >> value && kind == "observation" && timeline.starts_with(prefix))
-      out[timeline].push_back(value);
+  for (const auto& [timeline, told] : readings(run_folder, prefix))
+    for (const Reading& one : told) out[timeline].push_back(one.value);
+  return out;
+}
+
+std::vector<double> ordered_at(const std::filesystem::path& run_folder) {
+  std::vector<double> out;
+  for (const auto& [at_s, words] : trace_of(run_folder))
+    if (!words.empty() && words[0] == "order") out.push_back(at_s);
+  return out;
+}
+
+std::vector<Session> sessions(const std::filesystem::path& run_folder) {
+  std::vector<Session> out;
+  std::optional<double> since;
+  for (const Reading& one : readings(run_folder, "lander.radio")["lander.radio"]) {
+    const bool sends = one.value == "sending";
+    if (since && !sends) out.push_back({*std::exchange(since, std::nullopt), one.at_s});
+    if (sends && !since) since = one.at_s;
   }
   return out;
 }

@@ -54,8 +54,26 @@ class Course {
   std::vector<Product> products_;
 };
 
-/// Returns what was observed of the timelines whose names begin so, in the flight's own trace, as words.
+/// Is what was observed of a timeline, as a word.
+struct Reading {
+  double at_s = 0;
+  std::string value;
+};
+/// Returns what was observed of the timelines whose names begin so, in the flight's own trace.
+std::map<std::string, std::vector<Reading>> readings(const std::filesystem::path& run_folder,
+                                                     const std::string& prefix);
+/// Returns the values of these alone.
 std::map<std::string, std::vector<std::string>> observed(const std::filesystem::path& run_folder,
                                                          const std::string& prefix);
+
+/// Returns when the executive took orders of the ground, by its own trace.
+std::vector<double> ordered_at(const std::filesystem::path& run_folder);
+
+/// Is a time in which the radio sends without another state between.
+struct Session {
+  double from_s = 0, to_s = 0;
+};
+/// Returns all of a flight that have ended, as the radio told of them.
+std::vector<Session> sessions(const std::filesystem::path& run_folder);
 
 }  // namespace roci::scenario

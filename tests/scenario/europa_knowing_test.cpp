@@ -26,9 +26,11 @@ namespace {
 namespace fs = std::filesystem;
 namespace reading = planner::utility_htn::reading;
 using planner::utility_htn::model::Network;
-using ::testing::Contains, ::testing::HasSubstr, ::testing::IsEmpty;
+using ::testing::AllOf, ::testing::Contains, ::testing::Each, ::testing::Ge, ::testing::HasSubstr,
+    ::testing::IsEmpty, ::testing::Le, ::testing::Not;
 
-/// Says what comes as a surprise, and when: what holds from the beginning is told before the first plan.
+/// Says what comes as a surprise, and when: what holds from the beginning is told before the first plan, and what the
+/// ground orders when the lander hears it.
 struct Surprise {
   double at_s = 5;
   std::map<std::string, bool> signatures{};
@@ -46,14 +48,16 @@ const std::map<std::string, Surprise> kSurprises{
     {"first_negative", {103300, {{"1_0", false}}}},
     {"low_start", {}},
     {"sudden_low", {230000}},
-    {"ground_reorders", {60000, kAllNegative}},
-    {"ground_one_target", {60000, {}, "network-one-target.yaml"}},
+    {"ground_reorders", {*hears_the_ground_at("ground_reorders"), kAllNegative}},
+    {"ground_one_target", {*hears_the_ground_at("ground_one_target"), {}, "network-one-target.yaml"}},
     {"more_decisional", {}},
     {"more_mandatory", {}},
     {"comm_energy_35", {}},
     {"cold_85K", {}},
-    {"slow_downlink", {190000}},
+    {"slow_downlink", {*hears_the_ground_at("slow_downlink")}},
 };
+
+constexpr double kLightTimeS = 2600;  // links of the scenarios
 
 double seconds(long long us) { return static_cast<double>(us) / 1e6; }
 std::string task_of(const std::string& activity) { return activity.substr(0, activity.rfind('#')); }
@@ -70,8 +74,9 @@ class Knowing : public ::testing::TestWithParam<std::string> {
   HeardFlight hear(const std::string& scenario) const {
     return hear_flight(mission_, scenario, folder_ / scenario);
   }
-  // The same flight, to whose planner the ground tells the truth at the moment of the surprise.
+  // The same flight, to whose planner the ground tells the truth: it is heard at the moment of the surprise.
   HeardFlight hear_twin(const Network& truth, double at_s) const {
+    if (hears_the_ground_at(GetParam())) at_s -= kLightTimeS;
     std::ofstream(mission_ / "truth.htn", std::ios::binary) << reading::to_binary(truth);
     const fs::path scenario = mission_ / "scenarios/twin.yaml";
     fs::copy(mission_ / "scenarios" / (GetParam() + ".yaml"), scenario);
@@ -139,23 +144,42 @@ double collected_in_s(const HeardFlight& flight, const std::string& target) {
   return 0;
 }
 
-// All open downlinks have their new lengths in the cycle that follows the order.
-void expect_new_lengths(const HeardFlight& flight, double since_s) {
+using Downlinks = std::map<std::string, v1::ScheduledDownlink>;
+
+// Downlinks of a schedule that do not begin before, by their activities.
+Downlinks open_at(const v1::DownlinkSchedule& schedule, double at_s) {
+  Downlinks out;
+  for (const v1::ScheduledDownlink& one : schedule.downlinks())
+    if (seconds(one.start_us()) >= at_s) out.emplace(one.activity(), one);
+  return out;
+}
+
+// In the first version after the order, made in the cycle that follows it, every open downlink is another than before
+// and has its new length, and the data of each go by their tiers.
+void expect_planned_anew(const HeardFlight& flight, double since_s) {
   const std::map<std::string, double> lengths{{"downlink_gh_raw", 49600},
                                               {"downlink_gh_compressed", 14400},
                                               {"downlink_gh", 9600},
                                               {"downlink_survey", 9600},
                                               {"downlink", 9600}};
-  for (const v1::DownlinkSchedule& schedule : flight.schedules) {
-    if (seconds(schedule.made_us()) < since_s) continue;
-    EXPECT_LE(seconds(schedule.made_us()), since_s + 301);
-    EXPECT_GT(schedule.downlinks().size(), 3U);
-    for (const v1::ScheduledDownlink& one : schedule.downlinks())
-      EXPECT_GE(seconds(one.end_us() - one.start_us()), lengths.at(task_of(one.activity())))
-          << one.activity();
-    return;
+  const auto made_s = [](const v1::DownlinkSchedule& schedule) { return seconds(schedule.made_us()); };
+  const auto first =
+      std::ranges::find_if(flight.schedules, [&](const auto& s) { return made_s(s) >= since_s; });
+  ASSERT_NE(first, flight.schedules.begin());
+  ASSERT_NE(first, flight.schedules.end()) << "no schedule was made any more";
+  EXPECT_LE(made_s(*first), since_s + 301);
+  const Downlinks before = open_at(*(first - 1), made_s(*first)), after = open_at(*first, made_s(*first));
+  EXPECT_GT(after.size(), 3U);
+  for (const auto& [activity, downlink] : after) {
+    EXPECT_GE(seconds(downlink.end_us() - downlink.start_us()), lengths.at(task_of(activity))) << activity;
+    const auto same = before.find(activity);
+    if (same != before.end()) {
+      EXPECT_NE(same->second.end_us() - same->second.start_us(), downlink.end_us() - downlink.start_us())
+          << activity;
+    }
+    const auto tier = [](const v1::ScheduledProduct& data) { return data.tier(); };
+    EXPECT_TRUE(std::ranges::is_sorted(downlink.products(), {}, tier)) << activity;
   }
-  ADD_FAILURE() << "no schedule was made any more";
 }
 
 // What was committed when the order came was carried out.
@@ -179,6 +203,33 @@ void expect_network_in_force(const HeardFlight& flight, double since_s) {
         << seconds(outlook.made_us());
 }
 
+// What the ground says takes effect when the lander hears it: nothing is accepted before, and until then the flight is
+// one in which the ground says nothing.
+void expect_nothing_before(const HeardFlight& flight, const HeardFlight& silent, double heard_s) {
+  std::vector<double> accepted_s;
+  for (const v1::Event& event : flight.events)
+    if (event.code() == "network.accepted") accepted_s.push_back(seconds(event.header().stamp_us()));
+  EXPECT_THAT(accepted_s, Not(IsEmpty()));
+  EXPECT_THAT(accepted_s, Each(AllOf(Ge(heard_s), Le(heard_s + 301))));
+  const auto plans = [&](const HeardFlight& of) {
+    std::vector<std::string> out;
+    for (const v1::PlanDelta& delta : of.plans)
+      for (const v1::PlanActivity& activity : delta.added().activities())
+        if (seconds(delta.header().stamp_us()) < heard_s)
+          out.push_back(std::to_string(delta.header().stamp_us()) + " " + activity.id());
+    return out;
+  };
+  const auto deeds = [&](const HeardFlight& of) {
+    std::vector<nlohmann::json> out = of.deeds;
+    std::erase_if(out,
+                  [&](const auto& deed) { return deed["time_us"].template get<double>() / 1e6 >= heard_s; });
+    return out;
+  };
+  EXPECT_THAT(plans(flight), Not(IsEmpty()));
+  EXPECT_EQ(plans(flight), plans(silent));
+  EXPECT_EQ(deeds(flight), deeds(silent));
+}
+
 void Knowing::check_what_was_told(const HeardFlight& flight) const {
   const std::string& scenario = GetParam();
   const Course course(folder_ / scenario);
@@ -192,9 +243,12 @@ void Knowing::check_what_was_told(const HeardFlight& flight) const {
   if (scenario.starts_with("more_")) {
     EXPECT_GT(lost, 0) << "everything fits";
   }
-  if (scenario == "slow_downlink") expect_new_lengths(flight, at_s);
+  if (scenario == "slow_downlink") expect_planned_anew(flight, at_s);
   if (scenario == "ground_reorders") expect_commitments_kept(flight, at_s);
   if (scenario == "ground_one_target") expect_network_in_force(flight, at_s);
+  if (hears_the_ground_at(scenario))
+    expect_nothing_before(flight, hear(scenario == "ground_reorders" ? "all_negative" : "all_positive"),
+                          at_s);
 }
 
 TEST_P(Knowing, ATwinBringsHomeLittleMore) {

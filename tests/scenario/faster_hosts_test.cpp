@@ -73,6 +73,17 @@ std::string trace_of_one_host() {
   return trace;
 }
 
+// The mission with its last communication sooner, an hour's wait is no part of this, and at the level that it begins
+// with: at E3 what breaks waits for the ground.
+fs::path sooner(const fs::path& folder) {
+  fs::copy(kMission, folder, fs::copy_options::recursive);
+  edit(folder / "mission.yaml", "[3600, 5400]", "[1800, 5400]");
+  edit(folder / "scenarios/trial.yaml", "opens_s: 3600", "opens_s: 1800");
+  edit(folder / "scenarios/trial.yaml", "  - {at_s: 5, order: {id: level, kind: autonomy, level: E3}}",
+       "  #");
+  return folder;
+}
+
 #ifdef ROCI_CUT
 
 // A rover without its vendor's transport is refused before it says a word; when it has it, the mission begins. A second
@@ -92,17 +103,6 @@ TEST_F(FasterHosts, RefuseAMissingVendorAndASecondOfOneName) {
   EXPECT_EQ(steps["primary"].printed.value("trace_sha256", ""), trace_of_one_host());
 }
 
-// The mission with its last communication sooner, an hour's wait is no part of this, and at the level that it begins
-// with: at E3 what breaks waits for the ground.
-fs::path sooner(const fs::path& folder) {
-  fs::copy(kMission, folder, fs::copy_options::recursive);
-  edit(folder / "mission.yaml", "[3600, 5400]", "[1800, 5400]");
-  edit(folder / "scenarios/trial.yaml", "opens_s: 3600", "opens_s: 1800");
-  edit(folder / "scenarios/trial.yaml", "  - {at_s: 5, order: {id: level, kind: autonomy, level: E3}}",
-       "  #");
-  return folder;
-}
-
 // For five minutes, while the scout drives, it and the executive do not hear each other. It ends its drive, the plan
 // breaks, and when the link is back the two go on by a new plan.
 TEST_P(FasterHostsOf, GoOnAfterMinutesApart) {
@@ -117,18 +117,18 @@ TEST_P(FasterHostsOf, GoOnAfterMinutesApart) {
   expect_nothing_done_twice();
 }
 
-// Apart for longer than the executive waits for a scout that drove: it says what is missing,
-// and the run ends with both goals open.
-TEST_P(FasterHostsOf, EndAsStatedWhenApartForLonger) {
+// Apart for longer than a scout may be silent, and than the executive waits for it to rest: the run does not end, the
+// scout counts as lost, the ground is told, and the primary arrives alone. That the scout is heard again later changes
+// nothing of it.
+TEST_P(FasterHostsOf, ThePrimaryArrivesAloneWhenApartForLonger) {
   const fs::path mission = sooner(folder_ / "faster");
   edit(mission / "mission.yaml", "fallback_timeout_s: 600", "fallback_timeout_s: 60");
   auto steps = fly_apart(GetParam(), mission.string(), "live 20", "w3 1000");
   if (steps.empty()) GTEST_SKIP() << "this user cannot make network namespaces (ip netns add)";
-  EXPECT_EQ(steps["primary"].exit_code, 1);
-  EXPECT_EQ(steps["primary"].printed.value("result", ""), "failed") << steps["primary"].printed;
-  EXPECT_EQ(steps["primary"].printed["goals"].value("open", 0), 2);
+  expect_arrived(steps["primary"]);
   EXPECT_THAT(events(), Contains(AllOf(StartsWith("robot.safing"),
                                        HasSubstr("fall-back of scout_locomotion is not answered"))));
+  EXPECT_THAT(events(), Contains(StartsWith("component.lost scout_locomotion counts as lost")));
   expect_nothing_done_twice();
 }
 
@@ -143,6 +143,53 @@ TEST_P(FasterHostsOf, FlyAsOneHostDoes) {
   EXPECT_EQ(steps["ground"].printed["expected"].value("fault", "no report"), "");
   for (const char* host : {"ground", "primary", "scout"})
     EXPECT_EQ(steps[host].exit_code, 0) << host << " " << steps[host].printed;
+  EXPECT_EQ(steps["primary"].printed.value("trace_sha256", ""), trace_of_one_host());
+}
+
+// R137: all that runs on the scout's host dies for good while it drives. Its steps fail with the cause, the ground is
+// told when it counts as lost, and the primary arrives alone (Traverse-PR).
+TEST_F(FasterHosts, AScoutWhoseHostDiesCountsAsLostAndThePrimaryArrivesAlone) {
+  auto steps = fly_apart("mixed", sooner(folder_ / "faster").string(), "simulated 400", "dead w2");
+  if (steps.empty()) GTEST_SKIP() << "this user cannot make network namespaces (ip netns add)";
+  expect_arrived(steps["primary"]);
+  EXPECT_EQ(steps["scout"].exit_code, 137) << "killed, and not started again";
+  const std::vector<std::string> all = events();
+  auto at = all.begin();
+  for (const char* part :
+       {"service.lost scout.", "plan.broken", "component.lost scout_locomotion counts as lost",
+        "plan.adopted", "long_traverse achieved", "last_communication achieved"}) {
+    at = std::find_if(at, all.end(),
+                      [&](const std::string& one) { return one.find(part) != std::string::npos; });
+    ASSERT_NE(at, all.end()) << part;
+    if (std::string(part) == "plan.broken") {
+      EXPECT_THAT(*at, ::testing::ContainsRegex("lost|not answered"));
+    }
+  }
+  const std::string told = text_of(folder_ / "hosts/told");
+  EXPECT_LT(told.find("component.lost"), told.find("long_traverse achieved")) << told;
+  EXPECT_NE(told.find("long_traverse achieved"), std::string::npos);
+  const std::string trace =
+      run("roci-trace print " + (folder_ / "hosts/primary/journal.sqlite").string()).output;
+  EXPECT_THAT(trace, HasSubstr("GoAlone from="));
+  std::istringstream lines(text_of(folder_ / "hosts/ground/effects.jsonl"));
+  std::string last;
+  for (std::string line; std::getline(lines, line);) {
+    const json deed = json::parse(line);
+    if (deed["kind"] == "motion")
+      last = deed["robot"].get<std::string>() + " " + deed["object"].get<std::string>();
+    EXPECT_FALSE(deed["robot"] == "scout" && deed["object"] == "w9") << deed;
+  }
+  EXPECT_EQ(last, "primary w9");
+  expect_nothing_done_twice();
+}
+
+// R128, level E4: goals go up, and the planner runs beside the executive; the flight is the same.
+TEST_F(FasterHosts, FlyAsOneHostDoesWithThePlannerOnThePrimary) {
+  auto steps = fly_apart("mixed", kMission, "simulated max", "planner primary");
+  if (steps.empty()) GTEST_SKIP() << "this user cannot make network namespaces (ip netns add)";
+  expect_arrived(steps["primary"]);
+  EXPECT_TRUE(fs::exists(folder_ / "hosts/primary/planner_calls")) << "it was asked there";
+  EXPECT_FALSE(fs::exists(folder_ / "hosts/ground/planner_calls"));
   EXPECT_EQ(steps["primary"].printed.value("trace_sha256", ""), trace_of_one_host());
 }
 

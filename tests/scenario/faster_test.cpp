@@ -73,40 +73,6 @@ class FasterTrial : public ::testing::Test {
   const fs::path folder_ = fs::temp_directory_path() / ("roci_faster_trial_" + std::to_string(::getpid()));
 };
 
-// R139, R147, R148: at each way-point the scout first, then the primary, in one plan that nobody touches. At the trap
-// the scout's drive is repaired within its own time, and the plan's executive sees no more of it than a status.
-TEST_F(FasterTrial, TheScoutGoesFirstAndMendsItsDriveBeforeTheTrap) {
-  const Flight flight = flown("trial");
-  EXPECT_EQ(flight.summary["replans"], 0);
-  EXPECT_EQ(flight.summary["planner"]["calls"], 1);
-  std::vector<std::string> expected;
-  for (int w = 1; w <= 9; ++w) {
-    const std::string to = "w" + std::to_string(w);
-    expected.push_back("scout " + to);
-    if (w == 3) expected.insert(expected.end(), {"scout w2", "scout w3"});  // back, and on the new path
-    expected.push_back("primary " + to);
-  }
-  EXPECT_EQ(deeds("motion"), expected);
-  EXPECT_THAT(deeds("downlink"), ::testing::ElementsAre("primary traverse_done"));
-  const std::string lines = trace();
-  std::size_t from = 0;
-  for (const char* part : {"scouting(w3)", "repairing drive: no-go", "avoiding_hazard(w3)", "scouting(w3)",
-                           "scout.locomotion at(w3)", "FollowPath from=w2 to=w3"}) {
-    const std::size_t found = lines.find(part, from);
-    ASSERT_NE(found, std::string::npos) << part;
-    from = found + 1;
-  }
-}
-
-// R149: both stand, the robot idles, and the ground has the plan as far as it was executed.
-TEST_F(FasterTrial, AStoppedTrialEndsSafe) {
-  flown("trial_stopped");
-  const auto events = journaled_events(folder_ / "journal.sqlite");
-  EXPECT_THAT(events.back(), StartsWith("robot.safe"));
-  EXPECT_THAT(trace(), HasSubstr("scout.nav idle-at(here)"));
-  EXPECT_EQ(deeds("downlink").size(), 0U);
-}
-
 // R149: what was dropped is not done, and does not count as done; the next plan does it.
 TEST_F(FasterTrial, WhatTheGroundDropsIsNotDoneByTheRelaunch) {
   flown("trial_relaunched");
@@ -114,14 +80,6 @@ TEST_F(FasterTrial, WhatTheGroundDropsIsNotDoneByTheRelaunch) {
   EXPECT_THAT(trace(), Not(HasSubstr("command p1.194-antenna")));
   EXPECT_THAT(deeds("downlink"), ::testing::ElementsAre("primary traverse_done"));
   EXPECT_THAT(deeds("motion").back(), "primary w9");
-}
-
-// Traverse-PR, and BringBack-SR by each of its triggers (R137).
-TEST_F(FasterTrial, ALostScoutIsLeftBehindAndThePrimaryArrivesAlone) {
-  flown("scout_lost");
-  const auto motions = deeds("motion");
-  EXPECT_EQ(std::ranges::count(motions, "primary w9"), 1);
-  EXPECT_EQ(std::ranges::count(motions, "scout w9"), 0);
 }
 
 // Where no scout has been its own wheels find the trap: it backs out, and goes around within the same drive.
@@ -185,18 +143,22 @@ TEST_F(FasterTrial, NewGoalsBringTheScoutBackFirst) {
   EXPECT_THAT(deeds("motion"), Contains("primary v3"));
 }
 
-TEST_F(FasterTrial, WithoutAPathTheGroundIsTold) {
-  flown("no_path");
-  EXPECT_THAT(deeds("downlink"), ::testing::ElementsAre("primary no_global_path"));
-  EXPECT_THAT(deeds("motion").back(), "primary w0");
+// R128, level E1: one cycle without a plan, each decision commanded by the ground.
+TEST_F(FasterTrial, TheGroundCommandsTheDecisionsOfACycle) {
+  const Flight flight = flown("single_decisions");
+  EXPECT_EQ(flight.summary["goals"]["achieved"], 1);
+  EXPECT_THAT(deeds("motion"), ::testing::ElementsAre("scout w1", "primary w1"));
+  EXPECT_THAT(deeds("downlink"), ::testing::ElementsAre("primary no_arrival"));
+  EXPECT_THAT(trace(), HasSubstr("scout.locomotion at(w1)"));
+  EXPECT_THAT(trace(), HasSubstr("primary.locomotion at(w1)"));
 }
 
 constexpr const char* kScenarios[] = {
-    "nominal",          "trial",           "trial_stopped", "trial_relaunched",
-    "fixed_times",      "marker_not_seen", "scout_no_path", "primary_blocked",
-    "scout_lost",       "no_path",         "goal_change",   "repair_overrun",
-    "radio_loss",       "radio_cut",       "opportunity",   "opportunity_alone",
-    "scout_lost_early", "marker_lost"};
+    "nominal",          "trial",           "trial_stopped",   "trial_relaunched",
+    "fixed_times",      "marker_not_seen", "scout_no_path",   "primary_blocked",
+    "scout_lost",       "no_path",         "goal_change",     "repair_overrun",
+    "radio_loss",       "radio_cut",       "opportunity",     "opportunity_alone",
+    "scout_lost_early", "marker_lost",     "single_decisions"};
 #ifdef ROCI_ALL_TRANSPORTS
 constexpr const char* kTransports[] = {"inproc", "fastdds", "cyclonedds", "mixed"};
 #else

@@ -1,7 +1,8 @@
-"""What a newcomer meets first: ./run on terminals of 80 and 150 columns, its help, its question before sudo.
+"""What a newcomer meets first: ./run on terminals of 80 and 150 columns, its help, its question before sudo, what it says of a
+mission with a slip; what the build and the planner show on a terminal.
 
-first_minutes_test.py SOURCE_FOLDER BIN_FOLDER: the scripts are run from a copy of their places, with the programs of that build
-and a set-up that only says that it was called.
+first_minutes_test.py SOURCE_FOLDER BIN_FOLDER [TEST…]: the scripts are run from a copy of their places, with the programs of that
+build and a set-up that only says that it was called, or a set-up with stand-ins for what it calls.
 """
 
 from __future__ import annotations
@@ -28,14 +29,23 @@ LIMIT_S = 120  # of a whole flight, on a machine that does other things, too
 CONTROL = re.compile(r"\x1b\[[0-9;?]*[A-Za-z]")
 
 
-class Terminal:
-    """A command on a terminal of that size."""
+NOBODY = 65534
 
-    def __init__(self, command: list[str], columns: int, rows: int, environment: dict[str, str]) -> None:
+
+class Terminal:
+    """A command on a terminal of that size; as_nobody: with no rights, if this test has those of root."""
+
+    def __init__(
+        self, command: list[str], columns: int, rows: int, environment: dict[str, str], *, as_nobody: bool = False
+    ) -> None:
         self.text = ""
         self.decoder = codecs.getincrementaldecoder("utf-8")("replace")
         self.pid, self.fd = pty.fork()
         if self.pid == 0:
+            if as_nobody and os.geteuid() == 0:
+                os.setgroups([])
+                os.setgid(NOBODY)
+                os.setuid(NOBODY)
             os.execvpe(command[0], command, environment)
         fcntl.ioctl(self.fd, termios.TIOCSWINSZ, struct.pack("HHHH", rows, columns, 0, 0))
 
@@ -117,58 +127,182 @@ class Run(Place):
             self.assertLess(len(line), 80, line)
 
 
-class SetUp(unittest.TestCase):
-    """Packages that are missing, and nobody who is root."""
+class BadMission(Place):
+    """A mission with a slip: it is told, and nothing starts."""
 
-    def set_up(self, *words: str) -> tuple[int, str, bool]:
-        with tempfile.TemporaryDirectory() as name:
-            folder = Path(name)
-            folder.chmod(0o777)
-            for program, does in {"dpkg-query": "exit 1", "sudo": f"touch {folder}/sudo_was_called; exit 1"}.items():
-                (folder / program).write_text(f"#!/bin/sh\n{does}\n")
-                (folder / program).chmod(0o755)
-            script = folder / "cmake/setup.sh"
-            script.parent.mkdir()
-            shutil.copy(SOURCE / "cmake/setup.sh", script)
-            done = subprocess.run(
-                ["bash", script, *words, "release", "programs"], capture_output=True, text=True, check=False,
-                stdin=subprocess.DEVNULL, user=65534 if os.geteuid() == 0 else None,
-                env={**os.environ, "PATH": f"{folder}:/usr/bin:/bin", "ROCI_YES": ""},
-            )  # fmt: skip
-            return done.returncode, done.stderr, (folder / "sudo_was_called").exists()
+    def test_its_findings_are_told_and_nothing_starts(self) -> None:
+        mission = self.root / "slipped"
+        shutil.copytree(SOURCE / "missions/planetary", mission)
+        file = mission / "mission.yaml"
+        text = file.read_text()
+        file.write_text(text.replace("fallback: stop", "fallback: sotp", 1))
+        line = text[: text.index("fallback: stop")].count("\n") + 1
+        done = subprocess.run(
+            [self.root / "run", mission, "--headless", "--json"], capture_output=True, text=True, check=False,
+            env=self.environment, stdin=subprocess.DEVNULL, timeout=LIMIT_S,
+        )  # fmt: skip
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertRegex(done.stderr, rf"mission\.yaml:{line}:\d+: error: .*'sotp'")
+        self.assertEqual(done.stdout, "", "no launcher has spoken")
+        self.assertFalse((self.root / "state").exists(), "there is no run folder")
+
+
+class SetUpPlace(unittest.TestCase):
+    """The set-up with stand-ins for the programs that it calls."""
+
+    def setUp(self) -> None:
+        self.folder = Path(tempfile.mkdtemp())
+        self.addCleanup(shutil.rmtree, self.folder)
+        self.folder.chmod(0o777)
+        self.script = self.folder / "cmake/setup.sh"
+        self.script.parent.mkdir()
+        shutil.copy(SOURCE / "cmake/setup.sh", self.script)
+        self.environment = {**os.environ, "PATH": f"{self.folder}:/usr/bin:/bin", "ROCI_YES": "", "TERM": "xterm"}
+
+    def stand_in(self, program: str, does: str) -> None:
+        (self.folder / program).write_text(f"#!/bin/sh\n{does}\n")
+        (self.folder / program).chmod(0o755)
+
+
+class MissingPackages(SetUpPlace):
+    """Packages are missing, and the user is not root."""
+
+    def setUp(self) -> None:
+        super().setUp()
+        self.stand_in("dpkg-query", "exit 1")
+        self.stand_in("sudo", f'echo "$*" >>{self.folder}/sudo_was_called; exit 1')
+
+    def called(self) -> str:
+        file = self.folder / "sudo_was_called"
+        return file.read_text() if file.exists() else ""
+
+    def set_up(self, *words: str) -> tuple[int, str]:
+        done = subprocess.run(
+            ["bash", self.script, *words, "release", "programs"], capture_output=True, text=True, check=False,
+            stdin=subprocess.DEVNULL, user=NOBODY if os.geteuid() == 0 else None, env=self.environment,
+        )  # fmt: skip
+        return done.returncode, done.stderr
+
+    def answered(self, answer: str) -> tuple[int, str]:
+        """The set-up on a terminal, where that is typed when it asks."""
+        terminal = Terminal(
+            ["bash", str(self.script), "release", "programs"], 100, 30, self.environment, as_nobody=True
+        )
+        self.assertTrue(terminal.read_until(lambda text: "[y/N]" in text), terminal.text)
+        self.assertEqual(self.called(), "", "nothing before the answer")
+        os.write(terminal.fd, answer.encode() + b"\n")
+        return terminal.finish(), terminal.text
 
     def test_it_never_uses_sudo_unasked(self) -> None:
-        code, said, called = self.set_up()
+        code, said = self.set_up()
         self.assertEqual(code, 3)
         self.assertIn("--yes", said)
-        self.assertFalse(called)
+        self.assertEqual(self.called(), "")
 
     def test_yes_is_the_answer(self) -> None:
-        self.assertTrue(self.set_up("--yes")[2])
+        self.set_up("--yes")
+        self.assertIn("apt-get update", self.called())
+
+    def test_on_a_terminal_it_asks_and_takes_anything_but_yes_for_no(self) -> None:
+        for answer in ("n", "", "maybe"):
+            code, said = self.answered(answer)
+            self.assertEqual(code, 3, said)
+            self.assertIn("these Debian packages are missing: g++ ", said)
+            self.assertIn("nothing was installed", said)
+            self.assertEqual(self.called(), "")
+
+    def test_on_a_terminal_yes_lets_sudo_install(self) -> None:
+        code, said = self.answered("y")
+        self.assertEqual(code, 3, said)  # this sudo installs nothing
+        self.assertIn("apt-get failed", said)
+        self.assertEqual(self.called(), "apt-get update\n")
+
+
+class Build(SetUpPlace):
+    """All packages are there, and a stand-in for ninja builds."""
+
+    def setUp(self) -> None:
+        super().setUp()
+        self.stand_in("dpkg-query", "echo ok installed")
+        (self.folder / "build/release").mkdir(parents=True)
+        (self.folder / "build/release/build.ninja").touch()
+
+    def on_a_terminal(self, ninja: str) -> tuple[int, str]:
+        self.stand_in("ninja", ninja)
+        terminal = Terminal(["bash", str(self.script), "release"], 80, 24, self.environment)
+        return terminal.finish(), terminal.text
+
+    def test_where_little_or_nothing_is_to_be_done_it_says_nothing(self) -> None:
+        for ninja in (
+            "echo \"ninja: Entering directory 'build/release'\"; echo 'ninja: no work to do.'",
+            "echo '[1/2] Re-checking'; echo '[2/2] Linking'",
+        ):
+            self.assertEqual(self.on_a_terminal(ninja), (0, ""))
+
+    def test_a_long_build_is_one_line_that_changes(self) -> None:
+        code, said = self.on_a_terminal("for i in 1 2 3 4 5; do echo \"[$i/5] Building $(printf %0200d $i)\"; done")
+        self.assertEqual(code, 0)
+        self.assertEqual(said.count("\n"), 1, "the end of the line")
+        drawn = [part for part in re.split(r"\r\x1b\[K|\r\n", said) if part]
+        self.assertEqual([part[:5] for part in drawn], [f"[{i}/5]" for i in range(1, 6)])
+        for part in drawn:
+            self.assertLess(len(part), 80)
+
+    def test_an_error_stands_on_a_line_of_its_own(self) -> None:
+        code, said = self.on_a_terminal("echo '[1/9] begun'; echo 'FAILED: of itself'; exit 1")
+        self.assertEqual(code, 1)
+        self.assertIn("[1/9] begun\r\nFAILED: of itself\r\n", said)
 
     def test_the_build_is_told_while_it_goes_on(self) -> None:
         """The stand-in for ninja builds on only when its first line was read."""
-        with tempfile.TemporaryDirectory() as name:
-            folder = Path(name)
-            builder = f"echo '[1/9] begun'\nuntil [ -e {folder}/seen ]; do sleep 0.01; done\necho 'FAILED: of itself'\nexit 1"
-            for program, does in {"dpkg-query": "echo ok installed", "ninja": builder}.items():
-                (folder / program).write_text(f"#!/bin/sh\n{does}\n")
-                (folder / program).chmod(0o755)
-            script = folder / "cmake/setup.sh"
-            script.parent.mkdir()
-            shutil.copy(SOURCE / "cmake/setup.sh", script)
-            (folder / "build/release").mkdir(parents=True)
-            (folder / "build/release/build.ninja").touch()
-            with subprocess.Popen(
-                ["bash", script, "release"], stderr=subprocess.PIPE, text=True,
-                env={**os.environ, "PATH": f"{folder}:/usr/bin:/bin"},
-            ) as build:  # fmt: skip
-                assert build.stderr is not None
-                first = build.stderr.readline() if select.select([build.stderr], [], [], LIMIT_S)[0] else ""
-                (folder / "seen").touch()
-                self.assertEqual(first, "[1/9] begun\n")
-                self.assertIn("FAILED: of itself", build.stderr.read())
-                self.assertEqual(build.wait(), 1)
+        self.stand_in(
+            "ninja",
+            f"echo '[1/9] begun'\nuntil [ -e {self.folder}/seen ]; do sleep 0.01; done\necho 'FAILED: of itself'\nexit 1",
+        )
+        with subprocess.Popen(
+            ["bash", self.script, "release"], stderr=subprocess.PIPE, text=True, env=self.environment
+        ) as build:
+            assert build.stderr is not None
+            first = build.stderr.readline() if select.select([build.stderr], [], [], LIMIT_S)[0] else ""
+            (self.folder / "seen").touch()
+            self.assertEqual(first, "[1/9] begun\n")
+            self.assertIn("FAILED: of itself", build.stderr.read())
+            self.assertEqual(build.wait(), 1)
+
+
+ENDLESS = """(define (domain endless) (:requirements :durative-actions :numeric-fluents) (:functions (even) (odd))
+  (:durative-action one :parameters () :duration (= ?duration 1) :condition () :effect (at end (increase (even) 2)))
+  (:durative-action two :parameters () :duration (= ?duration 1) :condition () :effect (at end (increase (odd) 2))))
+"""
+NEVER = """(define (problem never) (:domain endless) (:init (= (even) 0) (= (odd) 1)) (:goal (= (even) (odd))))
+"""
+
+
+class Planner(unittest.TestCase):
+    """roci-plan on a search that does not end by itself."""
+
+    def setUp(self) -> None:
+        self.folder = Path(tempfile.mkdtemp())
+        self.addCleanup(shutil.rmtree, self.folder)
+        (self.folder / "domain.pddl").write_text(ENDLESS)
+        (self.folder / "problem.pddl").write_text(NEVER)
+        files = [str(self.folder / "domain.pddl"), str(self.folder / "problem.pddl")]
+        self.command = [str(BIN / "roci-plan"), *files, "--evaluations", "3000"]
+
+    def test_a_terminal_sees_what_it_is_doing_on_one_line(self) -> None:
+        terminal = Terminal(self.command, 100, 24, {**os.environ, "TERM": "xterm"})
+        self.assertEqual(terminal.finish(), 4, terminal.text)
+        drawn = [part for part in re.split(r"\r\x1b\[K", terminal.text)[1:-1] if part]
+        self.assertTrue(drawn, terminal.text)
+        self.assertTrue(any(re.search(r"^\d+ s  searching.*  \d+ evaluated  \d+ MB$", part) for part in drawn), drawn)
+        for part in drawn:
+            self.assertLess(len(part), 100)
+        self.assertIn("timeout", terminal.text.rsplit("\x1b[K", 1)[1], "the line is gone before the verdict")
+
+    def test_a_pipe_sees_none_of_it(self) -> None:
+        done = subprocess.run(self.command, capture_output=True, text=True, check=False)
+        self.assertEqual(done.returncode, 4)
+        self.assertNotIn("\x1b", done.stdout + done.stderr)
 
 
 if __name__ == "__main__":

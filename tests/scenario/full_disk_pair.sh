@@ -4,7 +4,7 @@
 # The disk is a small file system in memory: call it with `unshare -rm`; exit code 77 where that may not be mounted.
 # Prints steps as ground_and_kills.sh does: flying, replaced (the second leads), add (a goal sent meanwhile), full (its exit
 # code: for how many seconds it was full), joined (the first stands by), achieved, robot and second (exit code and summary
-# of each launcher) and begun (what the robot did).
+# of each launcher) and effects (what the robot did).
 set -uo pipefail
 bin=$1 mission=$2 dds=$3 domain=$4
 folder=$(mktemp -d)
@@ -53,4 +53,4 @@ for name in robot first second; do
   wait ${!name}
   step $name $? "$(tail -n 1 "$folder/$name.summary")"
 done
-step begun 0 "$(tr -d '\n' <"$folder/robot/begun.json")"
+step effects 0 "[$(paste -sd , "$folder/robot/effects.jsonl")]"

@@ -38,8 +38,10 @@ TEST_P(GroundAndKills, NothingIsLost) {
                                  [id](const nlohmann::json& goal) { return goal.value("id", "") == id; });
   };
   for (const char* id : {"more", "bad", "second", "ridge", "soil", "depot"}) EXPECT_EQ(listed(id), 1) << id;
-  for (const char* service : {"exec_svc", "planner_svc", "arm_svc", "pathplan_svc"})
-    EXPECT_EQ(steps[std::string("event-after-") + service].exit_code, 0) << service;
+  for (const std::string service : {"exec_svc", "planner_svc", "arm_svc", "pathplan_svc"}) {
+    EXPECT_EQ(steps["kill-" + service].exit_code, 0) << service << " was gone: the mission is over";
+    EXPECT_EQ(steps["event-after-" + service].exit_code, 0) << service;
+  }
   EXPECT_EQ(steps["status"].printed.value("mission", ""), "planetary");
   EXPECT_EQ(steps["status"].printed["goals"].size(), goals.size()) << "after the executive's restart";
   EXPECT_TRUE(steps["plan"].printed["activities"].is_array());

@@ -20,7 +20,7 @@ HeardFlight* now_heard = nullptr;  // a service is made by a plain function
 
 class Listener final : public services::Service {
  public:
-  Listener(services::Node& node, HeardFlight& heard) {
+  Listener(services::Node& node, HeardFlight& heard) : order_(heard.order) {
     keep(node, topics::observation, heard.observations);
     keep(node, topics::step_status, heard.steps);
     keep(node, topics::command, heard.commands);
@@ -30,13 +30,21 @@ class Listener final : public services::Service {
     keep(node, topics::mission_outlook, heard.outlooks);
     keep(node, topics::downlink_schedule, heard.schedules);
     keep(node, topics::event, heard.events);
+    keep(node, topics::path_request.request, heard.paths);
+    keep(node, topics::executed_plan, heard.executed);
+    keep(node, topics::mission_status, heard.statuses);
   }
 
  private:
   template <class Topic, class Sample>
-  static void keep(services::Node& node, const Topic& topic, std::vector<Sample>& in) {
-    services::subscribe(node, topic, [&in](const Sample& sample) { in.push_back(sample); });
+  void keep(services::Node& node, const Topic& topic, std::vector<Sample>& in) {
+    services::subscribe(node, topic, [this, &in, name = std::string(topic.name)](const Sample& sample) {
+      order_.push_back({name, in.size()});
+      in.push_back(sample);
+    });
   }
+
+  std::vector<HeardSample>& order_;
 };
 
 std::unique_ptr<services::Service> make_listener(services::Node& node, const services::RunSettings&) {

@@ -7,12 +7,20 @@
 #include <vector>
 
 #include "roci_idl/command.h"
+#include "roci_idl/executed.h"
 #include "roci_idl/health.h"
+#include "roci_idl/motion.h"
 #include "roci_idl/outlook.h"
 #include "roci_idl/plan.h"
 #include "roci_idl/planner.h"
 
 namespace roci::scenario {
+
+/// One sample of a HeardFlight.
+struct HeardSample {
+  std::string topic;
+  std::size_t index = 0;  ///< in the topic's list
+};
 
 /// Holds samples, each list in the order in which they were heard; `header().stamp_us()` is mission time.
 struct HeardFlight {
@@ -25,6 +33,10 @@ struct HeardFlight {
   std::vector<v1::MissionOutlook> outlooks;
   std::vector<v1::DownlinkSchedule> schedules;
   std::vector<v1::Event> events;
+  std::vector<v1::PathRequest> paths;  ///< that path planners were asked for
+  std::vector<v1::ExecutedPlan> executed;
+  std::vector<v1::MissionStatus> statuses;
+  std::vector<HeardSample> order;     ///< of all samples in the lists above
   std::vector<nlohmann::json> deeds;  ///< what the world records of what was really done (effects.jsonl)
   nlohmann::json summary;             ///< of the only executive
 };

@@ -4,7 +4,7 @@
 # RETURNING: services, separated by commas, that go on (SIGCONT) when the others have given them up; LOST: those that
 # never go on by themselves; KILLED: those that are killed. A goal is sent meanwhile. A console hangs from then on to the end.
 # Prints steps as ground_and_kills.sh does: flying and given-up (the status), add (the goal), heard (the status with the
-# RETURNING again), replaced (0: the processes of LOST and KILLED are gone), launch (exit code and summary), begun (what
+# RETURNING again), replaced (0: the processes of LOST and KILLED are gone), launch (exit code and summary), effects (what
 # the robot did), replay.
 set -uo pipefail
 bin=$1 mission=$2 dds=$3 domain=$4 returning=${5//,/ } lost=${6//,/ } killed=${7//,/ }
@@ -62,7 +62,7 @@ step replaced $replaced '{}'
 step add $? "$(cat "$folder/add" 2>/dev/null)"
 wait $launcher
 step launch $? "$(tail -n 1 "$folder/summary")"
-step begun 0 "$(cat "$folder/run/begun.json" 2>/dev/null | tr -d '\n')"
+step effects 0 "[$(paste -sd , "$folder/run/effects.jsonl")]"
 journal=$(sed -n 's/.*"journal":"\([^"]*\)".*/\1/p' "$folder/summary")
 step replay 0 "$("$bin/roci" replay --json "$folder/run/$journal")"
 cat "$folder/errors" >&2

@@ -2,10 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include <set>
-#include <utility>
-
 #include "services/process/domain_claim.hpp"
+#include "tests/scenario/effects.hpp"
 #include "tests/scenario/flight.hpp"
 
 namespace roci::scenario {
@@ -40,11 +38,7 @@ void expect_achieved(const Hang& hang) {
   EXPECT_EQ(summary.value("result", ""), "achieved") << summary;
   EXPECT_EQ(summary["goals"].value("achieved", 0), 4) << summary;
   EXPECT_EQ(summary["goals"].value("open", 1), 0) << summary;
-  const nlohmann::json& commands = steps["begun"].printed;
-  ASSERT_TRUE(commands.is_array());
-  std::set<std::pair<std::string, int>> begun;
-  for (const nlohmann::json& command : commands)
-    EXPECT_TRUE(begun.emplace(command.value("activity", ""), command.value("attempt", 0)).second) << command;
+  expect_done_once(steps["effects"].printed);
 }
 
 void expect_ended(const Hang& hang) {

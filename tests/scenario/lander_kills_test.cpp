@@ -54,6 +54,10 @@ TEST_P(LanderKills, AnEngineThatDiesGoesOnWithThePlanThatRuns) {
   for (const char* object : {"near", "view", "far"}) {
     SCOPED_TRACE(object);
     expect_all_done_once(fly_killing("planner_svc", object));
+    for (const char* record : {"1.steps", "2.steps"}) {  // one of each process
+      const Ended again = run("roci-network cycle " + (folder_ / "planner_steps" / record).string());
+      EXPECT_EQ(again.exit_code, 0) << again.output;
+    }
     for (const std::string& event : journaled_events(folder_ / "journal.sqlite"))
       EXPECT_FALSE(event.starts_with("plan.refused") || event.starts_with("plan.broken")) << event;
   }

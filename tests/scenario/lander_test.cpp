@@ -27,6 +27,16 @@ class Lander : public ::testing::TestWithParam<const char*> {
 
   std::vector<std::string> deeds() const { return deeds_of(folder_); }
 
+  // The record of a flight is enough to plan each of its cycles again, version for version.
+  void expect_that_every_cycle_is_planned_again_alone() const {
+    const Ended again = run("roci-network cycle " + (folder_ / "planner_steps/1.steps").string() + " --json");
+    EXPECT_EQ(again.exit_code, 0) << again.output;
+    const auto told = nlohmann::json::parse(again.output, nullptr, false);
+    ASSERT_TRUE(told.is_object()) << again.output;
+    EXPECT_GT(told["versions"], 5);
+    EXPECT_EQ(told["differing"], 0);
+  }
+
  private:
   const fs::path folder_ = fs::temp_directory_path() / ("roci_lander_" + std::to_string(::getpid()));
 };
@@ -52,6 +62,7 @@ TEST_P(Lander, TriesAgainWhatFailed) {
   ASSERT_EQ(flight.exit_code, 0) << flight.summary.dump();
   EXPECT_THAT(deeds(), Contains("send near"));
   EXPECT_THAT(deeds(), Contains("send far"));
+  expect_that_every_cycle_is_planned_again_alone();
 }
 
 INSTANTIATE_TEST_SUITE_P(Transports, Lander, ::testing::Values("inproc", "fastdds", "mixed"),

@@ -1,20 +1,23 @@
 #!/usr/bin/env bash
 # What an operator types while a mission flies: each answer is a file of OUT, its exit code stands in FILE.code.
-# operator.sh BIN MISSION SCENARIO DDS DOMAIN OUT asked|obstacle
+# operator.sh BIN MISSION SCENARIO DDS DOMAIN OUT SPEED asked|obstacle|ended
 set -u
-mission=$2 scenario=$3 dds=$4 domain=$5 out=$6
+mission=$2 scenario=$3 dds=$4 domain=$5 out=$6 speed=$7
 export PATH=$1:$PATH
 joins=(--domain "$domain" --dds "$dds")
-mkdir -p "$out"
-roci-launch "$mission" --scenario "$scenario" --dds "$dds" --domain "$domain" --speed 20 --headless --json \
-  --run-folder "$out/run" >"$out/summary" 2>&1 &
+export XDG_STATE_HOME=$out/state
+runs=$out/state/rocinante/runs  # where `roci runs` looks
+mkdir -p "$runs"
+roci-launch "$mission" --scenario "$scenario" --dds "$dds" --domain "$domain" --speed "$speed" --headless --json \
+  --run-folder "$runs/20990101T000000Z-flight" >"$out/summary" 2>&1 &
 launcher=$!
+ln -s "$runs/20990101T000000Z-flight" "$out/run"
 listener=
 trap 'kill $listener 2>/dev/null; kill -INT $launcher 2>/dev/null; wait' EXIT
 ask() {
   local file=$out/$1
   shift
-  timeout 30 roci "$@" "${joins[@]}" >"$file" 2>"$file.err"
+  timeout 60 roci "$@" "${joins[@]}" >"$file" 2>"$file.err"
   echo $? >"$file.code"
 }
 # Asks until the answer holds a text, for half a minute at most.
@@ -28,7 +31,7 @@ ask_until() {
   done
   return 1
 }
-case $7 in
+case $8 in
   asked)
     ask_until planetary status status
     roci events --json "${joins[@]}" >"$out/events" 2>/dev/null &
@@ -52,6 +55,16 @@ case $7 in
     wait "${asking[@]}"
     ask second goal add second photo x=60 y=45   # one more planner call
     ask_until 'plan 2,' after plan
+    ask steep-goal goal add steep photo x=190 y=60 --wait
+    mkdir "$runs/20260101T000000Z-old" "$runs/20260102T000000Z-older" "$runs/no-run-of-a-launcher"
+    roci runs --json >"$out/runs"
+    roci runs --prune --keep 1 --json >"$out/pruned"
+    roci runs --prune --keep 0 >"$out/pruned-again"
+    ls "$runs" >"$out/kept"
+    ;;
+  ended)
+    ask_until planetary status status
+    ask open-goal goal add open photo x=60 y=60 --wait
     ;;
   obstacle)
     ask_until ' \* ' older plan

@@ -1,5 +1,6 @@
-// What an operator asks of a mission while it flies, typed into roci: plan, timelines, ways, and why the plan is as it
-// is. Two flights serve all of it: they are begun, asked, and ended before their time.
+// What an operator asks of a mission while it flies, typed into roci: plan, timelines, ways, why the plan is as it
+// is, how a goal ends, and which runs there are. Three flights serve all of it: two are begun, asked, and ended
+// before their time; one ends by itself.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -18,11 +19,13 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 using ::testing::AllOf;
 using ::testing::ContainsRegex;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-// The planetary mission whose domain has one more action, which reads and raises a number that nobody gives, and two
-// scenarios: the ground asks for everything, and an obstacle becomes known far from every way.
+// The planetary mission whose domain has one more action, which reads and raises a number that nobody gives, and three
+// scenarios: the ground asks for everything, an obstacle becomes known far from every way, and one that ends before the
+// first communication window.
 fs::path made_mission(const fs::path& folder) {
   fs::copy(ROCI_SOURCE_DIR "/missions/planetary", folder / "mission", fs::copy_options::recursive);
   edit(folder / "mission/domain.pddl", "(:functions (battery)", "(:functions (warmth) (battery)");
@@ -36,7 +39,9 @@ fs::path made_mission(const fs::path& folder) {
   std::ofstream(folder / "mission/scenarios/asked.yaml")
       << "description: The ground asks.\nduration_s: 3600\n"
          "start: {x: 40, y: 40, heading: 0, arm: stow, battery: 900000}\nscience: {enabled: false}\n";
-  fs::copy(folder / "mission/scenarios/asked.yaml", folder / "mission/scenarios/obstacle.yaml");
+  for (const char* scenario : {"obstacle.yaml", "ended.yaml"})
+    fs::copy(folder / "mission/scenarios/asked.yaml", folder / "mission/scenarios" / scenario);
+  edit(folder / "mission/scenarios/ended.yaml", "duration_s: 3600", "duration_s: 800");
   std::ofstream(folder / "mission/scenarios/obstacle.yaml", std::ios::app)
       << "stimuli:\n"
          "  - {at_s: 10, goal: {id: ridge, kind: photo, importance: hard, arguments: {x: 110, y: 60}}}\n"
@@ -51,12 +56,12 @@ class Operator : public ::testing::Test {
     folder_ = fs::temp_directory_path() / ("roci_operator_" + std::to_string(::getpid()));
     fs::create_directories(folder_);
     const fs::path mission = made_mission(folder_);
-    for (const std::string flight : {"asked", "obstacle"}) {
+    for (const std::string flight : {"asked", "obstacle", "ended"}) {
       const services::process::DomainClaim domain;
       ended_ = run("timeout 120 " ROCI_SOURCE_DIR "/tests/scenario/operator.sh ${ROCI_BIN:-" ROCI_BINARY_DIR
                    "/bin} " +
                    mission.string() + " " + flight + " cyclonedds " + std::to_string(domain.id()) + " " +
-                   (folder_ / flight).string() + " " + flight + " 2>&1");
+                   (folder_ / flight).string() + (flight == "ended" ? " 100 " : " 20 ") + flight + " 2>&1");
     }
   }
   static void TearDownTestSuite() { fs::remove_all(folder_); }
@@ -172,6 +177,34 @@ TEST_F(Operator, IsWarnedOnceOfANumberThatHasNoValue) {
   EXPECT_THAT(said("after"), HasSubstr("plan 2,"));
   EXPECT_EQ(events("planner.warning"), 1) << said("events");
   EXPECT_THAT(said("events"), HasSubstr("(warmth) has no initial value"));
+}
+
+// Steep ground lies around the place.
+TEST_F(Operator, IsToldThatAGoalWasGivenUp) {
+  EXPECT_EQ(code("steep-goal"), 4) << said("steep-goal.err");
+  EXPECT_THAT(said("steep-goal"), HasSubstr("ground/steep"));
+  EXPECT_THAT(said("steep-goal"), ContainsRegex("dropped.* out of reach: place-steep \\(x=190 y=60\\)"));
+}
+
+TEST_F(Operator, IsToldThatTheMissionEndedBeforeTheGoal) {
+  EXPECT_EQ(text_of(folder_ / "ended/open-goal.code"), "5\n") << text_of(folder_ / "ended/open-goal.err");
+  EXPECT_THAT(text_of(folder_ / "ended/open-goal"), HasSubstr("ground/open"));
+  EXPECT_THAT(text_of(folder_ / "ended/open-goal.err"), HasSubstr("the mission ended before goal open did"));
+}
+
+// Two runs are old, one flies, and one folder is no run.
+TEST_F(Operator, ClearsOldRunsAwayButNoneThatFlies) {
+  const auto names = [](const std::string& file) {
+    std::vector<std::string> out;
+    for (const json& one : parsed(file)) out.push_back(fs::path(one.value("folder", "")).filename());
+    return out;
+  };
+  EXPECT_THAT(names("runs"),
+              ElementsAre("20990101T000000Z-flight", "20260102T000000Z-older", "20260101T000000Z-old"));
+  EXPECT_EQ(parsed("runs")[0].value("result", ""), "running");
+  EXPECT_THAT(names("pruned"), ElementsAre("20260102T000000Z-older", "20260101T000000Z-old"));
+  EXPECT_THAT(said("pruned-again"), HasSubstr("nothing to remove in "));
+  EXPECT_EQ(said("kept"), "20990101T000000Z-flight\nno-run-of-a-launcher\n");
 }
 
 }  // namespace

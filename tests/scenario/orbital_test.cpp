@@ -61,10 +61,10 @@ std::string name_of(const ::testing::TestParamInfo<OrbitalTest::ParamType>& test
 const auto kTransports = ::testing::Values("inproc", "fastdds", "cyclonedds", "mixed");
 
 #ifdef ROCI_ALL_SCENARIOS
-const auto kEndings =
-    ::testing::Values(Ending{"nominal", 2, 0}, Ending{"swap_full", 2, 0}, Ending{"slow_joint", 2, 0, 1},
-                      Ending{"blocked_slot", 1, 1, 1}, Ending{"module_fails", 2, 0, 1},
-                      Ending{"eclipse", 1, 2}, Ending{"dark_arrays", 2, 1, 1});
+const auto kEndings = ::testing::Values(Ending{"nominal", 2, 0}, Ending{"swap_full", 2, 0},
+                                        Ending{"slow_joint", 2, 0, 2}, Ending{"heavy_module", 3, 0, 2},
+                                        Ending{"blocked_slot", 1, 1, 1}, Ending{"module_fails", 2, 0, 1},
+                                        Ending{"eclipse", 1, 2}, Ending{"dark_arrays", 2, 1, 1});
 INSTANTIATE_TEST_SUITE_P(AllScenarios, OrbitalTest, ::testing::Combine(kEndings, kTransports), name_of);
 #else
 INSTANTIATE_TEST_SUITE_P(Scenarios, OrbitalTest,

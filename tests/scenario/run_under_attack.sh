@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# A short live mission on whose domain others start a run, a second launcher of the same run and a second executive; an
-# intruder asks in the executive's name in far epochs, forges heartbeats and repeats every command; and the executive loses
-# its journal in flight.
+# A short live mission on whose domain others start a run, a second launcher of the same run, a second executive and a second simulator; somebody tells of
+# the robot and acknowledges commands as if it were his; an intruder asks in the executive's name in far epochs, forges heartbeats and repeats every command;
+# and the executive loses its journal in flight.
 #   run_under_attack.sh BIN_FOLDER TESTS_FOLDER MISSION DDS DOMAIN
 # Prints "step<TAB>exit code<TAB>what it printed" for each of them, effects as "effect JSON", and the step launch.
 set -uo pipefail
@@ -47,6 +47,18 @@ mkdir "$folder/lone"
 timeout 60 "$bin/exec_svc" --run attacked --robot rover --mission "$folder/mission" --scenario short --run-folder "$folder/lone" \
   --dds "$vendor" --domain "$domain" --clock live --scale 40 --epoch "$(date +%s)" --incarnation 1 >"$folder/lone.out" 2>&1
 step second-executive $? "$folder/lone.out"
+mkdir "$folder/double"
+timeout 60 "$bin/sim_svc" --run attacked --mission "$folder/mission" --scenario short --run-folder "$folder/double" \
+  --dds "$vendor" --domain "$domain" --clock live --scale 40 --epoch "$(date +%s)" --incarnation 1 >"$folder/double.out" 2>&1
+step second-simulator $? "$folder/double.out"
+timeout 60 "$tests/intruder" "$vendor" "$domain" attacked >"$folder/owner.out" 2>&1 <<LINES
+as double
+observe rover.nav idle-at nowhere
+await 20 event exec_svc timeline.contested
+acknowledge sim_svc p1.1-drive 1
+await 20 event exec_svc ack.foreign
+LINES
+step second-owner $? "$folder/owner.out"
 timeout 60 "$tests/intruder" "$vendor" "$domain" attacked >"$folder/intruder.out" 2>&1 <<LINES
 send query sim_svc nav drive x 1000000 1000000
 send execute sim_svc nav drive y 1000000 1000000

@@ -5,13 +5,13 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <regex>
 #include <set>
 #include <sstream>
 
 #include "exec_svc/journal/journal.hpp"
+#include "tests/scenario/effects.hpp"
 #include "tests/scenario/flight.hpp"
 
 namespace roci::scenario {
@@ -22,8 +22,8 @@ namespace fs = std::filesystem;
 struct Record {
   int exit_code = -1;
   nlohmann::json summary;
-  std::set<std::string> commanded;   // "activity attempt"
-  std::map<std::string, int> begun;  // likewise, as often as the robot began it
+  std::set<std::string> commanded;  // "activity attempt"
+  nlohmann::json effects;           // on the world
   std::vector<std::string> events;
   nlohmann::json replayed;
   long count(const std::string& code) const {
@@ -53,10 +53,19 @@ Record fly_and_read(const std::string& dds, const std::string& crash, const std:
         if (kind == "trace" && what == "command" && action == "action=0")
           out.commanded.insert(activity + " " + attempt);
       });
-  std::ifstream begun(folder / "begun.json");
-  for (const auto& one : nlohmann::json::parse(begun, nullptr, false))
-    ++out.begun[one.value("activity", "") + " " + std::to_string(one.value("attempt", 0))];
+  out.effects = effects_of(folder);
   fs::remove_all(folder);
+  return out;
+}
+
+// How often each command had each effect: "kind object by activity attempt" → count. A dedicated executive commands in
+// the name of what commanded it, "exec_svc/2/p1.3-…", which is left out.
+std::map<std::string, int> causes_of(const nlohmann::json& effects) {
+  std::map<std::string, int> out;
+  for (const nlohmann::json& one : effects)
+    ++out[one.value("kind", "") + " " + one.value("object", "") + " by " +
+          std::regex_replace(one.value("activity", ""), std::regex("^exec_svc/[0-9]+/"), "") + " " +
+          std::to_string(one.value("attempt", 0))];
   return out;
 }
 
@@ -85,7 +94,8 @@ TEST_P(Standby, TakesOverAndGoesOnWithTheRunningPlan) {
     EXPECT_EQ(flight.count("plan.adopted"), 1) << "the plan of before";
     EXPECT_EQ(flight.count("goal.achieved"), undisturbed.count("goal.achieved"));
     EXPECT_EQ(flight.commanded, undisturbed.commanded);
-    EXPECT_EQ(flight.begun, undisturbed.begun);
+    expect_done_once(flight.effects);
+    EXPECT_EQ(causes_of(flight.effects), causes_of(undisturbed.effects));
     EXPECT_EQ(flight.replayed.value("same", false), true) << flight.replayed;
   }
 }
@@ -101,14 +111,6 @@ struct Flown {
   const char* crash;
 };
 
-// A dedicated executive commands in the name of what commanded it: "exec_svc/2/p1.3-…".
-std::map<std::string, int> without_epochs(const std::map<std::string, int>& begun) {
-  std::map<std::string, int> out;
-  for (const auto& [key, count] : begun)
-    out[std::regex_replace(key, std::regex("^exec_svc/[0-9]+/"), "")] += count;
-  return out;
-}
-
 class OtherEngines : public ::testing::TestWithParam<Flown> {};
 
 TEST_P(OtherEngines, ATakeOverGoesOnWithTheRunningPlan) {
@@ -122,7 +124,8 @@ TEST_P(OtherEngines, ATakeOverGoesOnWithTheRunningPlan) {
   EXPECT_EQ(flight.summary["expected"].value("fault", "no report"), "");
   EXPECT_EQ(flight.count("journal.diverged"), 0);
   EXPECT_EQ(flight.commanded, undisturbed.commanded);
-  EXPECT_EQ(without_epochs(flight.begun), without_epochs(undisturbed.begun));
+  expect_done_once(flight.effects);
+  EXPECT_EQ(causes_of(flight.effects), causes_of(undisturbed.effects));
   EXPECT_EQ(flight.replayed.value("same", false), true) << flight.replayed;
 }
 

@@ -13,7 +13,7 @@
 #include "services/publisher.hpp"
 #include "services/rpc.hpp"
 #include "services/service.hpp"
-#include "services/topics.hpp"
+#include "services/topics/topics.hpp"
 #include "tests/unit/services/sim_run.hpp"
 
 namespace roci::scenario {

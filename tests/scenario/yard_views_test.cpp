@@ -8,7 +8,7 @@
 #include "ground_console/cli/report.hpp"
 #include "ground_console/cli/robots.hpp"
 #include "ground_console/cli/watch/screen.hpp"
-#include "services/topics.hpp"
+#include "services/topics/topics.hpp"
 #include "tests/scenario/yard.hpp"
 
 namespace roci::scenario {

@@ -125,6 +125,7 @@ planner::utility_htn::model::Network sized_network(const fs::path& mission, std:
   write(folder.path() / "model.yaml", model);
   write(folder.path() / "earth.yaml", earth);
   write(folder.path() / "lander.yaml", lander);
+  write(folder.path() / "targets.yaml", read(mission / "targets.yaml"));
   return load_network(folder.path() / "network-rsm1.yaml");
 }
 

@@ -1,5 +1,5 @@
-// A part of a timeline: so many changes as fit into a few cache lines, with their sum,
-// so that a long timeline is gone through by blocks.
+// A block is a part of a timeline: as many changes as fit into a few cache lines, with their sum, so that a
+// long timeline can be searched by blocks.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@
 
 namespace roci::temporal::timelines {
 
-/// Says in short what values a block has and how far they are from the bounds that are asked for there.
+/// Sums up a block's values, and how far they are from the bounds that are asked for there.
 struct Summary {
   bool fine = true;            ///< all bounds of the range and of all asks hold everywhere
   Exact room_below = kBeyond;  ///< the least distance of the value to a lowest bound, if all are fine
@@ -58,7 +58,7 @@ class Block {
   const Summary& summary() const { return summary_; }
 
  private:
-  /// Is what the block makes of a course: from `reset` on (else from the first instant) these sums.
+  /// Sums up what the block makes of a course: from `reset` on (else from the first instant) these sums.
   struct Sum {
     bool known = false;
     bool resets = false;

@@ -1,4 +1,5 @@
-// What a kind of timeline permits (MEXEC, section IV.A.2, R71, R72), as plain sentences about what breaks it.
+// These checks say what a kind of timeline permits (MEXEC, section IV.A.2, R71, R72), as plain sentences
+// about what breaks it.
 #pragma once
 
 #include <span>

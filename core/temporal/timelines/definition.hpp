@@ -1,4 +1,5 @@
-// What a timeline is, and what a task does to timelines and asks of them (MEXEC, section IV.A, R67, R71, R72).
+// These types say what a timeline is, and what a task does to timelines and asks of them (MEXEC, section IV.A,
+// R67, R71, R72).
 #pragma once
 
 #include <cstdint>
@@ -19,7 +20,7 @@ enum class Kind {
   cumulative_rate,  ///< moreover runs up or down at a rate, as a battery's energy does
 };
 
-/// Is one timeline. Values are numbers in the timeline's unit; a state is its index in `states`.
+/// Defines one timeline. Values are numbers in the timeline's unit; a state is its index in `states`.
 struct Definition {
   std::string name;
   Kind kind = Kind::cumulative;
@@ -35,7 +36,7 @@ struct Definition {
   friend bool operator==(const Definition&, const Definition&) = default;
 };
 
-/// Is the place of a timeline in the list of definitions.
+/// Numbers a timeline by its place in the list of definitions.
 using Index = std::uint32_t;
 
 /// Says what a task does to a timeline (R72). A delta `during` the task is taken back at its end; a rate `during` it
@@ -65,7 +66,7 @@ struct Constraint {
   friend bool operator==(const Constraint&, const Constraint&) = default;
 };
 
-/// Is all of a task that timelines see.
+/// Holds all of a task that timelines see.
 struct Footprint {
   Duration duration{0};
   std::vector<Impact> impacts{};

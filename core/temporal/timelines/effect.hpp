@@ -1,4 +1,4 @@
-// What a task does to one timeline, and where a straight course leaves bounds.
+// This file says what a task does to one timeline, and where a straight course leaves bounds.
 #pragma once
 
 #include <array>
@@ -9,7 +9,8 @@
 
 namespace roci::temporal::timelines {
 
-/// Is all that a task does to one timeline. Without a duration everything acts at the start, and `end` is empty.
+/// Holds all that a task does to one timeline. Without a duration everything acts at the start, and `end` is
+/// empty.
 struct Effect {
   struct Step {
     std::optional<Exact> assign{};
@@ -24,12 +25,13 @@ struct Effect {
 Effect effect_on(Index timeline, const Footprint& footprint);
 Bounds bounds_of(const Constraint& constraint);
 
-/// Returns the parts of the stretch from `first` to `last`, in order, in which a value that runs straight from
-/// `at_first` with `rate` is outside of the bounds.
+/// Holds the parts of a stretch, in order, in which a value is out of bounds: at most two, since the value
+/// runs straight.
 struct Outside {
   std::array<Stretch, 2> parts{};
   std::size_t count = 0;
 };
+/// Returns the parts of the stretch in which a value that runs straight from `at_first` with `rate` is out of bounds.
 Outside outside(const Bounds& bounds, Exact at_first, Exact rate, Stretch stretch);
 
 }  // namespace roci::temporal::timelines

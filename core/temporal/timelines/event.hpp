@@ -1,4 +1,4 @@
-// What happens on a timeline, what is asked of it, and its values at an instant.
+// These types say what happens on a timeline, what is asked of it, and its values at an instant.
 #pragma once
 
 #include <compare>
@@ -10,7 +10,7 @@
 
 namespace roci::temporal::timelines {
 
-/// Is a task's number, chosen by the caller.
+/// Numbers a task; the caller chooses it.
 using TaskId = std::uint64_t;
 
 /// Says which of the values at one instant is meant: tasks that end there act before those that start there.
@@ -18,7 +18,7 @@ enum class Side { before, between, after };
 
 using Micros = std::int64_t;
 
-/// Is a closed interval of times in microseconds.
+/// Holds a closed interval of times in microseconds.
 struct Stretch {
   Micros first = 0;
   Micros last = 0;
@@ -27,8 +27,8 @@ struct Stretch {
 /// Says in what order things act at one instant.
 enum class Turn { ends, starts, observed };
 
-/// Is a change of a timeline at an instant. Of one turn assignments act before deltas,
-/// in the order of task and `order`.
+/// Holds a change of a timeline at an instant. Within one turn assignments act before deltas, in the order of
+/// task and `order`.
 struct Event {
   Micros time = 0;
   Turn turn = Turn::ends;
@@ -46,7 +46,7 @@ constexpr int state_of(Exact value) {
              : 64;
 }
 
-/// Are the values that are asked for: between two numbers, or one of the states whose bits are set.
+/// Says which values are asked for: between two numbers, or one of the states whose bits are set.
 struct Bounds {
   Exact lowest = -kBeyond;
   Exact highest = kBeyond;
@@ -58,7 +58,7 @@ struct Bounds {
   }
 };
 
-/// Is a place in the order of time.
+/// Names a place in the order of time.
 struct Position {
   Micros time = 0;
   Side side = Side::before;
@@ -74,20 +74,20 @@ struct Ask {
   Bounds bounds{};
 };
 
-/// Is an assignment or an observation, after which earlier changes no longer count.
+/// Marks an assignment or an observation, after which earlier changes no longer count.
 struct Reset {
   Micros time = std::numeric_limits<Micros>::min() / 2;
   Turn turn = Turn::ends;
 };
 
-/// Is what a timeline has come to right before an instant.
+/// Holds what a timeline has come to right before an instant.
 struct Course {
   Exact value = 0;
   Exact rate = 0;
   Reset reset{};
 };
 
-/// Is an instant at which something happens or begins or ends to be asked, with the values there. Until the next one
+/// Holds the values at an instant at which something happens, or at which an ask begins or ends. Until the next knot
 /// the value runs straight.
 struct Knot {
   Micros time = 0;
@@ -97,7 +97,7 @@ struct Knot {
   Exact starts_assigned = 0;  ///< after the assignments of what starts, before its deltas
   Exact after = 0;
   Exact rate = 0;        ///< from here on
-  Reset reset_before{};  ///< the newest that acts on `before`, and so on
+  Reset reset_before{};  ///< newest reset that acts on `before`, and so on
   Reset reset_between{};
   Reset reset_after{};
 

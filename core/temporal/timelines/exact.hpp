@@ -15,7 +15,7 @@ namespace roci::temporal::timelines {
 __extension__ typedef __int128 Exact;
 
 inline constexpr Exact kUnit = 1'000'000'000'000'000;
-/// Is more than any sum can be, and stands for a bound that is not there.
+/// Exceeds every sum, and stands for a missing bound.
 inline constexpr Exact kBeyond = kUnit * kUnit * 100'000'000;
 
 inline constexpr double kMostAmount = 1e15;                             ///< of an impact, a bound or a value

@@ -1,4 +1,4 @@
-// One timeline: what happens on it in the order of time, and what is asked of it, in blocks.
+// A line is one timeline: what happens on it in the order of time, and what is asked of it, in blocks.
 #pragma once
 
 #include <cstddef>
@@ -11,8 +11,8 @@
 namespace roci::temporal::timelines {
 
 /// Holds the changes and the asks of one timeline from its past on; what was before is in one value and one rate.
-/// Courses and summaries of blocks are found when they are asked for and kept until something before them changes: so
-/// also what is const must not be called from two threads at once.
+/// Courses and summaries of blocks are computed when they are asked for and cached until something before them
+/// changes, so not even const functions may be called from two threads at once.
 class Line {
  public:
   /// Blocks have at most `block` changes and asks, but for those of one instant.

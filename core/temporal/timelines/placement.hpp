@@ -1,4 +1,5 @@
-// At which starts a task would break bounds on one timeline (R75): only those blocks are looked into in which it could.
+// This file finds the starts at which a task would break bounds on one timeline (R75); it searches only those blocks in
+// which it could.
 #pragma once
 
 #include <span>

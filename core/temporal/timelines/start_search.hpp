@@ -1,4 +1,4 @@
-// At which starts a task would break bounds in some blocks of one timeline (R75), exactly.
+// This file finds exactly the starts at which a task would break bounds in some blocks of one timeline (R75).
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 
 namespace roci::temporal::timelines {
 
-/// Is room to work in, which is kept from question to question.
+/// Holds buffers that are reused from question to question.
 struct Scratch {
   std::vector<Knot> knots;
   std::vector<Micros> cuts;
@@ -43,7 +43,7 @@ class StartSearch {
   void keep(const Constraint& constraint, const Bounds& bounds);
 
  private:
-  /// Is a place at which the value is looked at, with what is there without the task.
+  /// Holds a place at which the value is checked, with the value there without the task.
   struct Point {
     Micros time = 0;
     Side side = Side::after;

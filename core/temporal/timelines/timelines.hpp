@@ -1,4 +1,4 @@
-// The timeline library (MEXEC, section IV.A.2, R71–R76, R82): projects impacts of placed tasks into the future, finds
+// The timeline library (MEXEC, section IV.A.2, R71–R76, R82) projects impacts of placed tasks into the future, finds
 // conflicts, and says when a task can be placed without one.
 #pragma once
 
@@ -16,8 +16,8 @@
 
 namespace roci::temporal::timelines {
 
-/// Is a stretch of time in which a value is out of range or breaks a constraint (R74). Times are whole microseconds:
-/// each in the stretch has a side on which the value is wrong.
+/// Describes a stretch of time in which a value is out of range or breaks a constraint (R74). Times are whole
+/// microseconds: each in the stretch has a side on which the value is wrong.
 struct Conflict {
   Index timeline = 0;
   std::optional<TaskId> task{};  ///< whose constraint is broken; none: the value leaves the timeline's range
@@ -27,15 +27,15 @@ struct Conflict {
   friend bool operator==(const Conflict&, const Conflict&) = default;
 };
 
-/// Is a closed interval of start times (R75).
+/// Holds a closed interval of start times (R75).
 struct Interval {
   Time earliest{0};
   Time latest{0};
   friend bool operator==(const Interval&, const Interval&) = default;
 };
 
-/// Is a corner of a timeline's course (figure 7); between two of them the value runs straight,
-/// and where it jumps two have one time.
+/// Holds a corner of a timeline's course (figure 7). Between two corners the value runs straight; where it
+/// jumps, two have the same time.
 struct Vertex {
   Time time{0};
   double value = 0;
@@ -48,7 +48,7 @@ struct Extent {
   Time origin{0};        ///< timelines have their initial values from here on
   Time end = kLastTime;  ///< nothing is looked at behind it, and no task is placed beyond
   std::size_t most_impacts = std::size_t{1} << 20;  ///< of all placed tasks together, constraints counted too
-  /// Changes that are kept together: more make changes dearer, and questions over all of time cheaper.
+  /// Sizes blocks in changes: larger blocks make changes dearer, and questions over all of time cheaper.
   std::size_t block = 64;
 };
 

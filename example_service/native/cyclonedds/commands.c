@@ -80,7 +80,7 @@ static void tell(const struct Command* one) {
 
 void say(struct Command* one, roci_v1_CommandStage stage, const char* code, const char* reason,
          double energy_j) {
-  if (!is_open(one)) return;  // the last word stays
+  if (!is_open(one)) return;  // the last status stays
   if (one->accepted_us < 0) one->accepted_us = now_us();
   one->stage = stage;
   snprintf(one->code, sizeof one->code, "%s", code);

@@ -14,7 +14,7 @@ CommandKey key_of(const v1::Command& request) {
   return {request.commander(), request.epoch(), request.activity(), request.attempt()};
 }
 
-bool is_open(const Word& word) { return word.stage == v1::STAGE_ACCEPTED; }
+bool is_open(const CommandStatus& status) { return status.stage == v1::STAGE_ACCEPTED; }
 
 }  // namespace
 
@@ -27,19 +27,19 @@ Commands::Commands(Clock& clock, const std::string& owner, Driver& driver)
                                                  [this](const v1::Command& request) { receive(request); });
 }
 
-void Commands::acknowledge(const CommandKey& key, const Word& word, std::uint64_t newest,
+void Commands::acknowledge(const CommandKey& key, const CommandStatus& status, std::uint64_t newest,
                            bool refused_epoch) {
   v1::CommandAck ack;
   ack.commander(std::get<0>(key));
   ack.epoch(std::get<1>(key));
   ack.activity(std::get<2>(key));
   ack.attempt(std::get<3>(key));
-  ack.stage(word.stage);
+  ack.stage(status.stage);
   ack.owner(owner_);
-  ack.code(word.code);
-  ack.reason(word.reason);
-  ack.outcome().duration_us(word.duration_us);
-  ack.outcome().energy_j(word.energy_j);
+  ack.code(status.code);
+  ack.reason(status.reason);
+  ack.outcome().duration_us(status.duration_us);
+  ack.outcome().energy_j(status.energy_j);
   ack.newest_epoch(newest);
   ack.refused_epoch(refused_epoch);
   clock_.write(acks_, ack);
@@ -51,16 +51,16 @@ std::uint64_t Commands::newest_epoch(const std::string& commander) const {
 }
 
 void Commands::tell(const CommandKey& key) {
-  acknowledge(key, records_.at(key).word, newest_epoch(std::get<0>(key)));
+  acknowledge(key, records_.at(key).status, newest_epoch(std::get<0>(key)));
 }
 
-void Commands::say(const CommandKey& key, Word word) {
+void Commands::say(const CommandKey& key, CommandStatus status) {
   Record& record = records_.at(key);
-  if (!is_open(record.word)) return;  // the last word stays
+  if (!is_open(record.status)) return;  // the last status stays
   if (record.accepted_us < 0) record.accepted_us = clock_.now_us();
-  if (!is_open(word) && word.stage != v1::STAGE_REJECTED)
-    word.duration_us = clock_.now_us() - record.accepted_us;
-  record.word = std::move(word);
+  if (!is_open(status) && status.stage != v1::STAGE_REJECTED)
+    status.duration_us = clock_.now_us() - record.accepted_us;
+  record.status = std::move(status);
   tell(key);
 }
 
@@ -75,7 +75,7 @@ bool Commands::repair(const CommandKey& key, const std::string& reason) {
 std::optional<std::int64_t> Commands::next_overrun_us() const {
   std::optional<std::int64_t> first;
   for (const auto& [key, record] : records_)
-    if (is_open(record.word) && record.repaired && record.latest_end_us >= 0)
+    if (is_open(record.status) && record.repaired && record.latest_end_us >= 0)
       first = std::min(first.value_or(record.latest_end_us), record.latest_end_us);
   return first;
 }
@@ -83,7 +83,7 @@ std::optional<std::int64_t> Commands::next_overrun_us() const {
 void Commands::overrun() {
   std::vector<CommandKey> over;
   for (const auto& [key, record] : records_)
-    if (is_open(record.word) && record.repaired && record.latest_end_us >= 0 &&
+    if (is_open(record.status) && record.repaired && record.latest_end_us >= 0 &&
         record.latest_end_us <= clock_.now_us())
       over.push_back(key);
   for (const CommandKey& key : over)
@@ -97,22 +97,22 @@ bool Commands::refused(const v1::Command& request) {
   const auto known = commanders_.find(request.header().sender());
   const std::uint64_t newest = newest_epoch(request.header().sender()), epoch = request.sender_epoch();
   const std::string text = "epoch " + std::to_string(epoch);
-  Word word{v1::STAGE_REJECTED};
+  CommandStatus status{v1::STAGE_REJECTED};
   if (epoch < newest) {
-    word.code = "old-epoch";
-    word.reason = text + " is over; the executive in charge has epoch " + std::to_string(newest);
+    status.code = "old-epoch";
+    status.reason = text + " is over; the executive in charge has epoch " + std::to_string(newest);
   } else if (epoch - newest > kEpochJump && request.action() != v1::COMMAND_QUERY) {
-    word.code = "epoch-jump";
-    word.reason = text + " is more than " + std::to_string(kEpochJump) + " after the newest, " +
-                  std::to_string(newest) + "; lead in an earlier one first";
+    status.code = "epoch-jump";
+    status.reason = text + " is more than " + std::to_string(kEpochJump) + " after the newest, " +
+                    std::to_string(newest) + "; lead in an earlier one first";
   } else if (known != commanders_.end() && epoch == newest &&
              (request.header().incarnation() != known->second.incarnation ||
               request.header().seq() <= known->second.seq)) {
-    word.code = "doubled-epoch";
-    word.reason = text + " was begun by another process; take a later one";
+    status.code = "doubled-epoch";
+    status.reason = text + " was begun by another process; take a later one";
   }
-  if (!word.code.empty()) acknowledge(key_of(request), word, newest, true);
-  return !word.code.empty();
+  if (!status.code.empty()) acknowledge(key_of(request), status, newest, true);
+  return !status.code.empty();
 }
 
 void Commands::raise_epoch(const v1::Command& request) {
@@ -131,7 +131,7 @@ Commands::Record& Commands::take(const v1::Command& request, const CommandKey& k
 void Commands::stop(const v1::Command& request, const CommandKey& key) {
   std::vector<CommandKey> open;
   for (const auto& [other, record] : records_)
-    if (is_open(record.word) && record.robot == request.robot() && record.subsystem == request.subsystem())
+    if (is_open(record.status) && record.robot == request.robot() && record.subsystem == request.subsystem())
       open.push_back(other);
   take(request, key);
   for (const CommandKey& other : open)
@@ -145,11 +145,11 @@ void Commands::cancel(const v1::Command& request, const CommandKey& key) {
   if (known == records_.end())
     return acknowledge(key, {v1::STAGE_UNKNOWN, "unknown-key", "this activity was never commanded here"},
                        newest);
-  if (!is_open(known->second.word))
-    return acknowledge(
-        key,
-        {v1::STAGE_CANCEL_FAILED, "already-ended", "it has already ended (" + known->second.word.code + ")"},
-        newest);
+  if (!is_open(known->second.status))
+    return acknowledge(key,
+                       {v1::STAGE_CANCEL_FAILED, "already-ended",
+                        "it has already ended (" + known->second.status.code + ")"},
+                       newest);
   if (std::exchange(known->second.cancelling, true)) return;  // its outcome is still to come
   raise_epoch(request);
   driver_.break_off(key, {v1::STAGE_CANCELLED, "cancelled", "cancelled on request"});

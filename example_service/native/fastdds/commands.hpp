@@ -17,7 +17,7 @@ namespace borehole {
 using CommandKey = std::tuple<std::string, std::uint64_t, std::string,
                               std::uint32_t>;  // commander, epoch, activity, attempt
 
-struct Word {
+struct CommandStatus {
   v1::CommandStage stage = v1::STAGE_ACCEPTED;
   std::string code{}, reason{};
   double energy_j = NAN;  // NaN: not measured
@@ -29,14 +29,14 @@ class Driver {
  public:
   virtual ~Driver() = default;
   virtual void carry_out(const CommandKey&, const v1::Command&) = 0;
-  virtual void break_off(const CommandKey&, const Word& why) = 0;
+  virtual void break_off(const CommandKey&, const CommandStatus& why) = 0;
 };
 
 class Commands {
  public:
   Commands(Clock&, const std::string& owner, Driver&);
 
-  void say(const CommandKey&, Word);
+  void say(const CommandKey&, CommandStatus);
   // The owner tries again by itself. False: the step's time is over, and the owner fails it.
   bool repair(const CommandKey&, const std::string& reason);
   // When a repaired command must have ended; overrun() breaks it off then.
@@ -48,7 +48,7 @@ class Commands {
     std::string robot, subsystem;
     std::int64_t latest_end_us = -1, accepted_us = -1;
     bool repaired = false, cancelling = false;
-    Word word{};
+    CommandStatus status{};
   };
   struct Commander {
     std::uint64_t epoch = 0;
@@ -63,7 +63,7 @@ class Commands {
   Record& take(const v1::Command&, const CommandKey&);
   void raise_epoch(const v1::Command&);
   std::uint64_t newest_epoch(const std::string& commander) const;
-  void acknowledge(const CommandKey&, const Word&, std::uint64_t newest, bool refused_epoch = false);
+  void acknowledge(const CommandKey&, const CommandStatus&, std::uint64_t newest, bool refused_epoch = false);
   void tell(const CommandKey&);
 
   Clock& clock_;

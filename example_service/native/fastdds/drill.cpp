@@ -121,11 +121,11 @@ void Drill::bored() {
   rest({v1::STAGE_COMPLETED, "done", "", 1200});
 }
 
-void Drill::break_off(const CommandKey& key, const Word& why) {
+void Drill::break_off(const CommandKey& key, const CommandStatus& why) {
   if (running_ == key) rest(why);
 }
 
-void Drill::rest(const Word& last) {
+void Drill::rest(const CommandStatus& last) {
   due_us_.reset();
   report("drill", "idle");
   commands_.say(*std::exchange(running_, std::nullopt), last);

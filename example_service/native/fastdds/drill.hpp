@@ -18,9 +18,9 @@ class Drill final : private Driver {
   void answer(const v1::FunctionRequest&);
   v1::FunctionValues values(const v1::FunctionRequest&, const v1::FunctionBatch&) const;
   void carry_out(const CommandKey&, const v1::Command&) override;
-  void break_off(const CommandKey&, const Word& why) override;
+  void break_off(const CommandKey&, const CommandStatus& why) override;
   void bored();
-  void rest(const Word& last);
+  void rest(const CommandStatus& last);
   void report(const std::string& timeline, const std::string& state);
   void wake();
 

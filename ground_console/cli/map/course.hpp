@@ -1,4 +1,5 @@
-// What timelines of states showed over a run, and what they are still to show. Plain values, whatever they came from.
+// A course is what timelines of states showed over a run, and what they are still to show. It consists of plain
+// values, whatever they came from.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +10,7 @@
 
 namespace roci::console::cli::map {
 
-/// Is a value of a timeline for a while, in mission time.
+/// Holds a value of a timeline for a while, in mission time.
 struct Held {
   std::string value;
   std::int64_t from_us = 0;
@@ -17,12 +18,14 @@ struct Held {
   bool planned = false;  ///< it is still to come
 };
 
+/// Holds what one timeline showed, and when its owner repaired.
 struct Row {
   std::string timeline;
   std::vector<Held> held{};                ///< by time
   std::vector<std::int64_t> repairs_us{};  ///< when the owner of that name began to repair
 };
 
+/// Holds what all timelines showed over a run.
 struct Course {
   std::vector<Row> rows{};  ///< in the order in which they were first seen
   /// When plans begin, with their versions.

@@ -1,4 +1,4 @@
-// The map of a mission as a drawing.
+// This file draws the map of a mission.
 #pragma once
 #include "ground_console/cli/map/mission_map.hpp"
 #include "ground_console/cli/map/picture.hpp"

@@ -1,4 +1,4 @@
-// What the layers of the map share: colours, and the way from metres to pixels.
+// The layers of the map share colours, and the way from metres to pixels.
 #pragma once
 
 #include "ground_console/cli/map/mission_map.hpp"

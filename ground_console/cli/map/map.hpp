@@ -1,4 +1,4 @@
-// The verb `roci map`: a picture of the ground of a mission, with what is planned and driven on it.
+// This is the verb `roci map`: a picture of the ground of a mission, with what is planned and driven on it.
 #pragma once
 
 #include <functional>
@@ -9,6 +9,7 @@
 
 namespace roci::console::cli::map {
 
+/// Holds the arguments of `roci map`.
 struct MapArguments {
   std::string png;      ///< the file to write; empty: none
   std::string svg;      ///< the same, with timelines and what each robot knows; empty: none

@@ -1,4 +1,4 @@
-// What a map of a mission shows. Plain values, whatever they came from.
+// A mission map is what a map of a mission shows. It consists of plain values, whatever they came from.
 #pragma once
 
 #include <filesystem>
@@ -11,19 +11,20 @@
 
 namespace roci::console::cli::map {
 
+/// Names a place on the map.
 struct NamedPlace {
   std::string name;
   terrain::Point at;
 };
 
-/// Is an obstacle or a zone, in metres.
+/// Describes an obstacle or a zone, in metres.
 struct Circle {
   terrain::Point centre;
   double radius = 0;
   bool operator==(const Circle&) const = default;
 };
 
-/// Is what a robot's own map has beyond the loaded one.
+/// Holds what a robot's own map has beyond the loaded one.
 struct KnownObstacle {
   Circle disc;
   std::string kind;  ///< "rock", "soil"; empty: nobody says
@@ -33,6 +34,7 @@ struct KnownObstacle {
 
 using Way = std::vector<terrain::Point>;
 
+/// Holds all that a map of a mission shows.
 struct MissionMap {
   terrain::Site site;
   std::string title;

@@ -1,4 +1,4 @@
-// A picture of pixels, and the few shapes that a map needs, with smooth edges.
+// A picture consists of pixels, and has the few shapes that a map needs, with smooth edges.
 #pragma once
 
 #include <cstddef>
@@ -9,22 +9,24 @@
 
 namespace roci::console::cli::map {
 
+/// Holds a colour by its parts, 0 to 255.
 struct Colour {
   std::uint8_t red = 0, green = 0, blue = 0;
   bool operator==(const Colour&) const = default;
 };
 
-/// Is a place in the picture: x to the right and y down, in pixels; the first pixel covers 0 … 1.
+/// Holds a place in the picture: x to the right and y down, in pixels; the first pixel covers 0 … 1.
 struct Spot {
   double x = 0;
   double y = 0;
 };
 
-/// Is a part of the picture, in pixels. Shapes are cut at it.
+/// Holds a part of the picture, in pixels. Shapes are cut at it.
 struct Frame {
   double left = 0, top = 0, right = 0, bottom = 0;
 };
 
+/// Holds pixels, and draws shapes into them with smooth edges.
 class Picture {
  public:
   Picture(int width, int height, Colour ground);

@@ -1,4 +1,4 @@
-// The picture of the ground as a file.
+// This file writes the picture of the ground as a PNG file.
 #pragma once
 #include <cstdint>
 #include <filesystem>

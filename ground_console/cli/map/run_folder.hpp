@@ -1,4 +1,4 @@
-// What a run left in its folder, for a picture of it (docs/formats.md).
+// This file reads what a run left in its folder, for a picture of it (docs/formats.md).
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,5 @@
-// A run as one picture: what each robot knows of the ground and where it drove,
-// and under it what timelines showed when.
+// A run picture shows a whole run: what each robot knows of the ground and where it drove, and under it what
+// timelines showed when.
 #pragma once
 
 #include <optional>
@@ -11,6 +11,7 @@
 
 namespace roci::console::cli::map {
 
+/// Holds all that the picture of a run shows.
 struct RunPicture {
   std::string title;
   std::string subtitle{};

@@ -1,5 +1,6 @@
-// What planners expect of their plans, as the ground sees it: the downlink schedule, ranked utility, energy, the subway
-// map (R110–R115, R127). Each as text, JSON and one picture; functions of a sample alone.
+// These views show what planners expect of their plans, as the ground sees it: the downlink schedule, ranked utility,
+// energy, the subway map (R110–R115, R127). Each comes as text, JSON and one picture, and is a function of a sample
+// alone.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

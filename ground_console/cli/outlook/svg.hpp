@@ -1,4 +1,4 @@
-// A picture as an SVG document: shapes and texts in the order in which they are drawn.
+// This is a picture as an SVG document: shapes and texts in the order in which they are drawn.
 #pragma once
 
 #include <cstddef>
@@ -10,6 +10,7 @@
 
 namespace roci::console::cli::outlook {
 
+/// Says how a shape is drawn.
 struct Ink {
   std::string fill = "none";
   std::string stroke = "none";
@@ -18,6 +19,7 @@ struct Ink {
   double opacity = 1;
 };
 
+/// Says how a text is drawn.
 struct Letters {
   double size = 12;
   std::string colour = "#1d2733";
@@ -26,6 +28,7 @@ struct Letters {
   bool halo = false;  ///< they stand on a light rim
 };
 
+/// Collects shapes and texts, and writes them as an SVG document.
 class Svg {
  public:
   using Point = std::pair<double, double>;

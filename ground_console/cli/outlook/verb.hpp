@@ -1,4 +1,4 @@
-// The verbs `roci downlinks`, `utility`, `energy`, `subway` and `chains`.
+// These are the verbs `roci downlinks`, `utility`, `energy`, `subway` and `chains`.
 #pragma once
 
 #include <string>
@@ -7,8 +7,10 @@
 
 namespace roci::console::cli::outlook {
 
+/// Says which of the verbs is meant.
 enum class Subject { downlinks, utility, energy, subway, chains };
 
+/// Holds the arguments of these verbs.
 struct OutlookArguments {
   Subject subject = Subject::downlinks;
   std::string robot;  ///< empty: the only one, or the first by name

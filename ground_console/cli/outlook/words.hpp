@@ -1,4 +1,4 @@
-// Words and numbers that the views of an outlook share.
+// This file has words and numbers that the views of an outlook share.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// The time axis that the panels of the plan share: mission time to columns.
+// The panels of the plan share this time axis: mission time to columns.
 #pragma once
 
 #include <cstddef>
@@ -8,6 +8,7 @@
 
 namespace roci::console::cli::watch {
 
+/// Holds a span of mission time, in microseconds.
 struct Span {
   std::int64_t from;
   std::int64_t to;

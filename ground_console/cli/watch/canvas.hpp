@@ -1,4 +1,4 @@
-// A grid of styled characters, to be printed plain or with the terminal's colours.
+// The canvas is a grid of styled characters, to be printed plain or with the terminal's colours.
 #pragma once
 
 #include <cstddef>
@@ -8,8 +8,10 @@
 
 namespace roci::console::cli::watch {
 
+/// Names the styles of characters.
 enum class Style { plain, dim, title, good, active, warning, bad };
 
+/// Holds a grid of styled characters, and prints it.
 class Canvas {
  public:
   Canvas(std::size_t width, std::size_t height) : width_(width), cells_(width * height) {}

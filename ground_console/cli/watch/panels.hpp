@@ -1,4 +1,4 @@
-// The panels of the screen. Each draws into a rectangle of the canvas and keeps within it.
+// These are the panels of the screen. Each draws into a rectangle of the canvas and keeps within it.
 #pragma once
 
 #include <cstddef>
@@ -14,6 +14,7 @@
 
 namespace roci::console::cli::watch {
 
+/// Holds a rectangle of the canvas, in characters.
 struct Rectangle {
   std::size_t row = 0, column = 0, width = 0, height = 0;
 };

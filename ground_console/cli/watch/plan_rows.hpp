@@ -1,4 +1,4 @@
-// Which activities of a plan the screen shows when not all of them fit.
+// This file chooses which activities of a plan the screen shows when not all of them fit.
 #pragma once
 
 #include <cstddef>
@@ -8,12 +8,14 @@
 
 namespace roci::console::cli::watch {
 
+/// Holds one row: an activity at its depth.
 struct PlanRow {
   const v1::PlanActivity* activity = nullptr;
   std::size_t depth = 0;
   std::size_t folded = 0;  ///< activities below it that are not shown
 };
 
+/// Holds the rows that the screen shows, and counts what it leaves out.
 struct PlanRows {
   std::vector<PlanRow> rows;
   std::size_t gone = 0;  ///< activities that have ended and are left out

@@ -1,5 +1,5 @@
-// The whole screen of `roci watch`: mission, goals, a map of the way, the plan as bars over time, what
-// happened last.
+// This is the whole screen of `roci watch`: mission, goals, a map of the way, the plan as bars over time,
+// what happened last.
 #pragma once
 
 #include "ground_console/cli/mission_words.hpp"

@@ -1,4 +1,4 @@
-// The verb `roci watch`.
+// This is the verb `roci watch`.
 #pragma once
 
 #include "ground_console/cli/mission_words.hpp"

@@ -36,8 +36,8 @@ std::set<std::string> with_neighbours(const std::set<std::string>& named, const 
 
 }  // namespace
 
-std::string words_against(const std::vector<std::string>& facts, const pddl::Problem& problem,
-                          const std::vector<Object>& objects, std::span<const FunctionUse> uses) {
+engine::OwnersWords words_against(const std::vector<std::string>& facts, const pddl::Problem& problem,
+                                  const std::vector<Object>& objects, std::span<const FunctionUse> uses) {
   return engine::words_against(with_neighbours(objects_in(facts), problem), objects, uses);
 }
 

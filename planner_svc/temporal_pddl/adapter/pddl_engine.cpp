@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <functional>
 #include <new>
 #include <string>
 #include <utility>
@@ -18,8 +19,8 @@
 namespace roci::planner::temporal_pddl::adapter {
 
 using call::BlockedFact, call::Budget, call::Monitor, call::NamedGoal, call::Options;
-using engine::Answer, engine::BlockingGoal, engine::FunctionSource,
-    engine::FunctionUse, engine::Limits, engine::RemainingAction, engine::Request;
+using engine::Answer, engine::BlockingGoal, engine::FunctionSource, engine::FunctionUse, engine::Limits,
+    engine::RemainingAction, engine::Request;
 using temporal::Verdict;
 
 namespace {
@@ -66,8 +67,9 @@ std::vector<BlockingGoal> blocking_goals(const std::vector<BlockedFact>& blocked
     const auto found = std::ranges::find_if(
         blocked, [&](const BlockedFact& one) { return std::ranges::count(facts, one.fact) > 0; });
     if (found == blocked.end()) continue;
-    const std::string words = words_against(facts, problem, request.objects, uses);
-    out.push_back({goal.issuer, goal.id, found->fact, words.empty() ? found->reason : words});
+    const engine::OwnersWords words = words_against(facts, problem, request.objects, uses);
+    out.push_back(
+        {goal.issuer, goal.id, found->fact, words.text.empty() ? found->reason : words.text, words.proved});
   }
   return out;
 }
@@ -92,12 +94,17 @@ Answer plan_for(const Request& request, const Limits& limits, FunctionSource& fu
     for (const pddl::Diagnostic& warning : *warnings) out.warnings.push_back(pddl::to_string(warning));
   out.verdict = result.verdict;
   out.reason = std::move(result.reason);
+  out.lacks_values = result.lacks_values;
   out.statistics.expanded = result.statistics.expanded;
   out.statistics.evaluated = result.statistics.evaluated;
   out.statistics.bytes_per_state = result.statistics.bytes_per_state;
   out.statistics.from_remaining = result.statistics.from_remaining;
   out.warnings.insert(out.warnings.end(), result.warnings.begin(), result.warnings.end());
   out.blocking = blocking_goals(result.blocked, request, problem, result.functions);
+  // A search that ends for want of one goal's values has reached no other goal, either.
+  const auto stands_on_unknown = [](const BlockingGoal& goal) { return !goal.proved; };
+  if (result.lacks_values && std::ranges::any_of(out.blocking, stands_on_unknown))
+    std::erase_if(out.blocking, std::not_fn(stands_on_unknown));
   std::vector<std::string> names;
   for (const NamedGoal& goal : goals) names.push_back(goal.name);
   if (result.plan) out.plan = export_plan(*result.plan, result.functions, names);

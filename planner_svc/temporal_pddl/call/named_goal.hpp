@@ -14,8 +14,8 @@ struct NamedGoal {
 
 /// A fact of the problem's goal that was found to be out of reach, and why.
 struct BlockedFact {
-  std::string fact;  ///< written as in NamedGoal
-  std::string reason;
+  std::string fact;    ///< written as in NamedGoal
+  std::string reason;  ///< empty: no sequence of actions reaches it, and that is all
 };
 
 }  // namespace roci::planner::temporal_pddl::call

@@ -11,7 +11,7 @@
 
 namespace roci::planner::temporal_pddl::call {
 
-/// Is thrown inside the engine only; plan() turns it into a Result.
+/// Carries a failure out of the engine's parts; plan() turns it into a Result.
 class PlanningFailure : public std::exception {
  public:
   PlanningFailure(temporal::Verdict verdict, std::string reason, std::vector<BlockedFact> blocked = {})

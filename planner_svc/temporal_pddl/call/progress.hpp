@@ -8,7 +8,7 @@
 
 namespace roci::planner::temporal_pddl::call {
 
-/// Is kept up to date by the call that it is about.
+/// Shows how far a call has come; the call itself keeps it up to date.
 struct Progress {
   std::string_view phase = "reading";  ///< what it is doing; of a search of the portfolio, which one
   std::size_t evaluated = 0;           ///< heuristic evaluations so far

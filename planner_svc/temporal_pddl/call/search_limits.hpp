@@ -25,7 +25,7 @@ struct Budget {
 struct Monitor {
   /// Gets the statistics so far now and then (about every thousand expansions).
   std::function<void(const Statistics&)> progress;
-  /// Is polled at least about every millisecond of work; so it must be cheap.
+  /// Stops the work; it is polled at least about every millisecond, so it must be cheap.
   std::function<bool()> cancelled;
   /// Hears at each of these polls how far the call has come; so it must be cheap too.
   std::function<void(const Progress&)> watch;

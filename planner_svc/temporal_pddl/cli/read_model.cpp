@@ -19,7 +19,7 @@ namespace {
 constexpr std::size_t kAtOnce = 16384;  // bytes
 
 // Collects what is wrong with the files, one after the other.
-class Refusal {
+class ModelFaults {
  public:
   template <typename Read>
   void attempt(Read read) {
@@ -65,21 +65,21 @@ std::string read_file(const std::string& path) {
 }
 
 Model read_model(const std::string& domain, const std::string& problem, pddl::Strictness strictness) {
-  Refusal refusal;
+  ModelFaults faults;
   std::optional<pddl::Domain> read;
-  refusal.attempt([&] { read = pddl::load_domain(read_file(domain), domain, strictness); });
+  faults.attempt([&] { read = pddl::load_domain(read_file(domain), domain, strictness); });
   Model model;
-  refusal.attempt([&] {
+  faults.attempt([&] {
     const std::string text = read_file(problem);
     // Without its domain, only its form can be told.
     model.problem = read ? pddl::load_problem(text, problem, *read, strictness)
                          : pddl::parse_problem(text, problem, strictness);
   });
-  refusal.throw_findings();
+  faults.throw_findings();
   model.domain = std::move(*read);
   if (auto forbidden = pddl::forbidden_effects(model.domain, model.problem); !forbidden.empty())
-    refusal.add(pddl::ParseError(std::move(forbidden)));
-  refusal.throw_findings();
+    faults.add(pddl::ParseError(std::move(forbidden)));
+  faults.throw_findings();
   return model;
 }
 

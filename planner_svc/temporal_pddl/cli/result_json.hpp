@@ -9,7 +9,7 @@
 
 namespace roci::planner::temporal_pddl::cli {
 
-/// Is the exit code for a command line that is none (EX_USAGE).
+/// Gives the exit code for a wrong command line (EX_USAGE).
 inline constexpr int kUsageError = 64;
 
 /// Returns the exit code of a verdict, as docs/exit-codes.md lists them.

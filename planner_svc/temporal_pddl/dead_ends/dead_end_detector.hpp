@@ -16,7 +16,7 @@
 
 namespace roci::planner::temporal_pddl::dead_ends {
 
-/// Is the interface of a safe detector.
+/// Defines the interface of a safe detector.
 class DeadEndDetector {
  public:
   virtual ~DeadEndDetector() = default;
@@ -26,7 +26,7 @@ class DeadEndDetector {
   /// SearchLimits throws.
   virtual bool proves_dead_end(task::StateView state, std::span<const task::ActionId> running,
                                task::ActionCompression compression) = 0;
-  /// Is told of each heuristic evaluation, so that it can wait with its tables until they pay.
+  /// Takes in each heuristic evaluation, so that it can wait with its tables until they pay.
   virtual void note_evaluation() {}
   /// Returns how many bytes it keeps that grow with the problem.
   virtual std::size_t bytes() const = 0;

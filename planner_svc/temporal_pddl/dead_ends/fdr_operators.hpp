@@ -34,7 +34,7 @@ struct ValueTransition {
   Literal to;    ///< is kNoLiteral likewise
 };
 
-/// Is a variable that may have one of several values before an operator.
+/// Describes a variable that may have one of several values before an operator.
 struct UndeterminedVariable {
   std::uint32_t begin, end;  ///< its transitions, among FdrOperator::loose_changes
   bool settled;              ///< whether all lead to the same value

@@ -11,7 +11,8 @@
 
 namespace roci::planner::temporal_pddl::dead_ends {
 
-/// Is asked every few microseconds whether to go on, and told how many words of bits were looked at since.
+/// Returns whether to go on; it is asked every few microseconds, with the number of words of bits that were
+/// examined since.
 using H2WorkLimit = std::function<bool(std::size_t work)>;
 
 /// Holds the pairs related so far; they only ever become more.

@@ -14,7 +14,7 @@
 
 namespace roci::planner::temporal_pddl::dead_ends {
 
-/// Is safe. The task and the limits must outlive it.
+/// Never takes a state with a plan for a dead end (it is safe). The task and the limits must outlive it.
 class MutexDeadEnds final : public DeadEndDetector {
  public:
   /// Waits for `patience` evaluations before it makes the tables.

@@ -11,7 +11,7 @@ namespace roci::planner::temporal_pddl::dead_ends {
 
 using BitWord = std::uint64_t;
 
-/// Is a set of small numbers.
+/// Holds a set of small numbers.
 class Bits {
  public:
   Bits() = default;

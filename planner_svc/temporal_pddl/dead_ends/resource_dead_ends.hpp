@@ -13,7 +13,7 @@
 
 namespace roci::planner::temporal_pddl::dead_ends {
 
-/// Is safe. The task and the limits must outlive it.
+/// Never takes a state with a plan for a dead end (it is safe). The task and the limits must outlive it.
 class ResourceDeadEnds final : public DeadEndDetector {
  public:
   /// Waits until `patience` states have been asked about before it measures; with 0 it measures with the

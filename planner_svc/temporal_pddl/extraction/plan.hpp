@@ -49,6 +49,7 @@ struct Activity {
   std::vector<std::size_t> goals_served;  ///< indices of the goals that were named, see goal_support.hpp
 };
 
+/// Holds a plan as it leaves the engine.
 struct Plan {
   std::vector<Activity> activities;  ///< by start time
   Network network;

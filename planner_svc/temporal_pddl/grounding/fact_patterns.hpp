@@ -12,7 +12,7 @@
 
 namespace roci::planner::temporal_pddl::grounding {
 
-/// Is an atom, or its negation, some of whose objects do not matter (none).
+/// Holds an atom, or its negation, some of whose objects do not matter (none).
 struct Pattern {
   task::PredicateId predicate;
   std::vector<task::ObjectId> objects;

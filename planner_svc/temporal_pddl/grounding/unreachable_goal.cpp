@@ -32,7 +32,7 @@ std::string window_too_short(const UnreachableGoal& known) {
   if (!nearest) return {};
   const std::string name =
       Patterns(known).text(known.actions[nearest->schema.index()].name, nearest->arguments);
-  return "; " + name + " takes " + in_seconds(nearest->duration) + ", its longest window is " +
+  return name + " takes " + in_seconds(nearest->duration) + ", its longest window is " +
          in_seconds(nearest->window) + ": " + in_seconds(nearest->duration - nearest->window) + " too short";
 }
 
@@ -58,13 +58,12 @@ void refuse(const UnreachableGoal& known) {
   for (const std::string& cause : causes_of(known)) causes += cause + "; ";
   const std::string misfit = window_too_short(known);
   std::vector<BlockedFact> blocked;
-  for (std::string& fact : facts)
-    blocked.push_back({std::move(fact), "no sequence of actions reaches it" + misfit});
+  for (std::string& fact : facts) blocked.push_back({std::move(fact), misfit});
   throw PlanningFailure(
       Verdict::unsolvable,
       causes +
           "no sequence of actions reaches, even if nothing were ever deleted and numbers did not count:" +
-          text + misfit,
+          text + (misfit.empty() ? "" : "; " + misfit),
       std::move(blocked));
 }
 

@@ -11,7 +11,7 @@
 
 namespace roci::planner::temporal_pddl::grounding {
 
-/// Is what grounding knows when it finds that the goal is out of reach.
+/// Holds what grounding knows when it finds that the goal is out of reach.
 struct UnreachableGoal {
   const pddl::Problem& problem;
   const std::vector<lifted::LiftedAction>& actions;

@@ -36,7 +36,7 @@ struct EvaluationContext {
   std::span<const task::SnapId> steps = {};     ///< the steps of the plan so far
 };
 
-/// Is the interface of all heuristics; none of them changes what it looks at.
+/// Defines the interface of all heuristics; none of them changes what it looks at.
 class Heuristic {
  public:
   virtual ~Heuristic() = default;

@@ -18,7 +18,7 @@ namespace roci::planner::temporal_pddl::heuristics {
 
 using LandmarkId = task::Id<struct LandmarkTag>;
 
-/// Is one landmark with its place among the others.
+/// Describes one landmark with its place among the others.
 struct Landmark {
   std::vector<PropositionId> any_of;    ///< one of these must hold
   bool goal = false;                    ///< whether it must hold at the end

@@ -19,7 +19,7 @@ namespace roci::planner::temporal_pddl::heuristics {
 class OperatorCosts {
  public:
   using Cost = std::uint32_t;
-  /// Is paid for each goal that an operator would undo, in actions.
+  /// Sets what is paid for each goal that an operator would undo, in actions.
   static constexpr Cost kGoalThreatPenalty = 10;
 
   OperatorCosts(const task::Task& task, const RelaxedTask& relaxed);

@@ -82,8 +82,7 @@ SearchOutcome BestFirstSearch::failed() const {
   const std::string number = unmet_comparison(task_, space_.store());
   if (!number.empty()) reason += "; " + number;
   std::vector<call::BlockedFact> blocked;
-  for (std::string& fact : goal_.never_held())
-    blocked.push_back({std::move(fact), number.empty() ? "never reached" : "never reached; " + number});
+  for (std::string& fact : goal_.never_held()) blocked.push_back({std::move(fact), number});
   return {std::nullopt, {}, std::move(reason), std::move(blocked)};
 }
 

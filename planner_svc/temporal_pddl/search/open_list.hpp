@@ -47,7 +47,7 @@ class OpenList {
   /// Takes an entry from the queue that was served least. Each entry comes once; where it waits in several
   /// queues, its turn in the others passes.
   std::optional<OpenEntry> pop();
-  /// Is told that the search has made progress: what is preferred is served first for a while.
+  /// Takes in that the search has made progress: what is preferred is served first for a while.
   void boost();
 
   std::size_t bytes() const;

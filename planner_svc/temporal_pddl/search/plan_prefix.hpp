@@ -11,14 +11,14 @@
 
 namespace roci::planner::temporal_pddl::search {
 
-/// Is an action that has started and not ended.
+/// Describes an action that has started and not ended.
 struct Running {
   task::ActionId action;
   std::uint32_t step = 0;  ///< the step of its start
   NodeId before;           ///< the state in which it started
 };
 
-/// Is a plan up to a stored state, with its temporal constraints.
+/// Holds a plan up to a stored state, with its temporal constraints.
 struct PlanPrefix {
   NodeId node;
   std::vector<task::SnapId> steps;

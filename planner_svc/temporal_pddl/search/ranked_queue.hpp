@@ -10,7 +10,7 @@
 
 namespace roci::planner::temporal_pddl::search {
 
-/// Is a rank; lower is better.
+/// Holds a rank; lower is better.
 struct Priority {
   std::int64_t first = 0;
   std::int64_t second = 0;

@@ -19,7 +19,7 @@ struct SearchOutcome {
   std::vector<call::BlockedFact> blocked{};  ///< which facts of the goals did, as far as is known
 };
 
-/// Is the interface of the members of the portfolio.
+/// Defines the interface of the members of the portfolio.
 class ResumableSearch {
  public:
   virtual ~ResumableSearch() = default;

@@ -13,9 +13,10 @@
 
 namespace roci::planner::temporal_pddl::search {
 
+/// Says why a snap action leads to no state.
 enum class Rejection { none, logical, temporal };
 
-/// Is a state that has been built and may be stored.
+/// Holds a state that has been built and may be stored.
 struct Successor {
   Transition transition;
   std::vector<task::Word> state;

@@ -11,7 +11,7 @@
 
 namespace roci::planner::temporal_pddl::task {
 
-/// Is an index that only serves things of one kind; one that is made without a value is none.
+/// Numbers things of one kind only; one that is made without a value stands for none.
 template <typename Tag>
 struct Id {
   static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
@@ -36,7 +36,7 @@ using SchemaId = Id<struct SchemaTag>;          // an action of the domain
 using ActionId = Id<struct ActionTag>;          // a ground action
 using SnapId = Id<struct SnapTag>;              // a start, end, instantaneous action or timed literal
 
-/// Is a vector that only the right kind of id can index.
+/// Holds a vector that only the right kind of id can index.
 template <typename IdType, typename T>
 class IdVector {
  public:

@@ -13,7 +13,7 @@
 
 namespace roci::planner::temporal_pddl::task {
 
-/// Is the sum Σ weight · value(variable) + duration_weight · ?duration + constant. Terms are sorted by
+/// Holds the sum Σ weight · value(variable) + duration_weight · ?duration + constant. Terms are sorted by
 /// variable, and none of their weights is 0.
 struct LinearExpression {
   struct Term {

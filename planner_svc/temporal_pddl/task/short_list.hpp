@@ -162,7 +162,7 @@ class ShortList : public ListInterface<ShortList<T, Few>, T> {
   std::uint32_t size_ = 0;
 };
 
-/// Is mostly empty, and then as large as a pointer.
+/// Holds a list that is mostly empty, and is then as large as a pointer.
 template <typename T>
 class RareList : public ListInterface<RareList<T>, T> {
   static_assert(alignof(T) <= alignof(std::uint64_t));

@@ -28,11 +28,11 @@ enum class SnapKind : std::uint8_t {
   end,
   instant,
   timed_literal,
-  /// Is no step of a plan; heuristics see by it how a derived fact or its negation comes to hold.
+  /// Belongs to no plan; heuristics see by it how a derived fact or its negation comes to hold.
   derivation,
 };
 
-/// Is an instant at which a state changes (snap action, R10).
+/// Describes an instant at which a state changes (snap action, R10).
 struct Snap {
   SnapKind kind = SnapKind::start;
   ActionId action;  ///< is none for timed_literal and derivation
@@ -47,7 +47,7 @@ struct DurationRule {
   bool at_end = false;
 };
 
-/// Is a ground action; its snap actions carry conditions and effects.
+/// Describes a ground action; its snap actions carry conditions and effects.
 struct Action {
   SchemaId schema;
   SnapId start;
@@ -59,13 +59,13 @@ struct Action {
   bool instantaneous() const { return start == end; }
 };
 
-/// Is a timed literal that happens at its time by itself.
+/// Describes a timed literal that happens at its time by itself.
 struct TimedStep {
   SnapId snap;
   temporal::Duration time{0};
 };
 
-/// Is one alternative of the goal; all of it must hold.
+/// Holds one alternative of the goal, all of which must hold.
 struct Goal {
   std::vector<FactId> facts;
   std::vector<NumericCondition> comparisons;

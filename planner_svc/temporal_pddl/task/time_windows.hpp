@@ -8,7 +8,7 @@
 
 namespace roci::planner::temporal_pddl::task {
 
-/// Is an interval of times; both of its ends belong to it.
+/// Holds an interval of times, both ends included.
 struct TimeWindow {
   temporal::Duration open{0};
   temporal::Duration close = temporal::no_bound;

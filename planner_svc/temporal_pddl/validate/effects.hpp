@@ -7,8 +7,8 @@
 
 namespace roci::planner::temporal_pddl::validate {
 
-/// Is one literal or assignment with its quantified variables bound. It carries the conditions of all `when`
-/// around it, which are tested as their times come.
+/// Holds one literal or assignment with its quantified variables bound. It carries the conditions of all
+/// `when` around it, which are tested as their times come.
 struct PendingEffect {
   const pddl::Effect* effect = nullptr;
   Bindings bindings;

@@ -25,7 +25,7 @@ std::vector<Step> resolve(const std::vector<pddl::PlanStep>& plan, const Model& 
 /// Lists the kinds in the order in which events of one moment are executed.
 enum class EventKind { timed_literal, timed_value, instant, start, end };
 
-/// Is one happening of the plan or of the problem; events compare in their order of execution.
+/// Describes one happening of the plan or of the problem; events compare in their order of execution.
 struct Event {
   pddl::Microseconds time{0};
   EventKind kind = EventKind::instant;

@@ -13,7 +13,7 @@
 
 namespace roci::planner::temporal_pddl::values {
 
-/// Is an action instance by the ids that grounding gives to schemas and objects of the model.
+/// Names an action instance by the ids that grounding gives to schemas and objects of the model.
 struct ActionInstance {
   task::SchemaId schema;
   std::vector<task::ObjectId> arguments;

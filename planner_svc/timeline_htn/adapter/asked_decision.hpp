@@ -1,4 +1,4 @@
-// A decision of a plan that is carried out, found again in the behaviour that left it open.
+// This file finds an asked decision of a running plan again in the behaviour that left it open.
 #pragma once
 
 #include <optional>

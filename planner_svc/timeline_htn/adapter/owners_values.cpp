@@ -84,22 +84,22 @@ void explain(engine::Answer& answer, const Model& model, const engine::Request& 
   if (answer.verdict != Verdict::unsolvable) return;
   if (const std::string doubt = engine::doubt_of(uses); !doubt.empty()) {
     answer.verdict = Verdict::timeout;
+    answer.lacks_values = true;
     answer.reason = doubt + "; without that, " + answer.reason;
-    answer.blocking.clear();
-    return;
   }
   bool said = false;
   for (engine::BlockingGoal& blocking : answer.blocking)
     for (const model::Goal& goal : model.problem->goals) {
       if (goal.id != blocking.issuer + "/" + blocking.id) continue;
-      const std::string words = engine::words_against(named_by(model, goal), request.objects, uses);
+      const auto [words, proved] = engine::words_against(named_by(model, goal), request.objects, uses);
       if (words.empty()) continue;
       answer.reason += "; " + words;
       blocking.reason = words;
+      blocking.proved = proved;
       said = true;
       break;
     }
-  if (const std::string words = engine::denial_of(uses); !said && !words.empty())
+  if (const std::string words = engine::denial_of(uses); !said && !words.empty() && !answer.lacks_values)
     answer.reason += "; " + words;
 }
 

@@ -1,5 +1,5 @@
-// Numbers that services gave for a call, behind its answer: those that the plan stands on,
-// or what they say where there is none.
+// This file adds to an answer the numbers that services gave for a call: those on which the plan rests, or
+// what they say where there is none.
 #pragma once
 
 #include <span>

@@ -1,4 +1,5 @@
-// The engine behind planner_svc's seam: a request in, a plan of hierarchical flexible timelines out.
+// This is the engine behind planner_svc's seam: a request comes in, a plan of hierarchical flexible timelines
+// goes out.
 #pragma once
 
 #include <cstddef>
@@ -18,8 +19,8 @@ struct Settings {
   std::size_t threads = 1;
 };
 
-/// `Request::model` is domain and behaviours, with or without a problem; `problem_text` may hold more of the model.
-/// What the request says of states, objects and goals counts.
+/// Plans requests whose `model` is domain and behaviours, with or without a problem; `problem_text` may hold more
+/// of the model. What the request says of states, objects and goals counts.
 class TimelineEngine final : public engine::AnsweringEngine {
  public:
   explicit TimelineEngine(Settings settings = {}) : settings_(std::move(settings)) {}

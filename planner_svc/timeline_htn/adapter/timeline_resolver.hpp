@@ -1,4 +1,4 @@
-// Answers the decisions that plans of this engine leave to it (R131).
+// This resolver answers the decisions that plans of this engine leave to it (R131).
 #pragma once
 
 #include "planner_svc/engine/decision_resolver.hpp"

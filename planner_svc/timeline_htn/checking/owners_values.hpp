@@ -1,4 +1,5 @@
-// Numbers that services gave for the call, for the checker: into its own model, and against what the plan records.
+// The checker puts the numbers that services gave for the call into its own model, and compares them with what the
+// plan records.
 #pragma once
 
 #include <span>

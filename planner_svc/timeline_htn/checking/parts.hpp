@@ -1,11 +1,11 @@
-// The parts of the checker.
+// These are the parts of the checker.
 #pragma once
 
 #include "planner_svc/timeline_htn/checking/version.hpp"
 
 namespace roci::planner::timeline_htn::checking {
 
-/// Is a way in which an activity is a behaviour's.
+/// Describes a way in which an activity carries out a behaviour.
 struct Decomposition {
   Index behaviour = 0;
   Binding binding;
@@ -13,16 +13,16 @@ struct Decomposition {
   std::vector<Index> part_of;
 };
 
-/// Is what an observer sees of a state.
+/// Holds what an observer sees of a state.
 struct Seen {
   std::string timeline;
   temporal::Value value;
   friend bool operator==(const Seen&, const Seen&) = default;
 };
-/// Returns it, or nothing where nobody observes the state.
+/// Returns what is seen of the state, or nothing where nobody observes it.
 std::optional<Seen> seen(const Version& version, const GroundState& state);
 
-/// Goes by activity; it is empty for those that are not decomposed.
+/// Lists decompositions by activity; the list is empty for one that is not decomposed.
 using Decompositions = std::vector<std::vector<Decomposition>>;
 
 /// Checks states, transitions, how long values last, and that activities stand on their timelines;

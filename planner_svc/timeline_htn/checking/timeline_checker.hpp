@@ -1,4 +1,4 @@
-// The independent checker behind planner_svc's seam.
+// This is the independent checker behind planner_svc's seam.
 #pragma once
 
 #include <optional>

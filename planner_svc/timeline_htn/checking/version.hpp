@@ -1,4 +1,4 @@
-// A plan taken apart for the checker, by the names of the model.
+// A version is a plan taken apart for the checker, by the names of the model.
 #pragma once
 
 #include <map>
@@ -19,17 +19,17 @@ using temporal::Duration, temporal::TimePoint, temporal::to_text;
 
 using Faults = std::vector<std::string>;
 using Schedule = std::vector<Duration>;  ///< the time of each point
-/// The objects of variables, kNone where one is free.
+/// Holds the objects of variables, kNone where one is free.
 using Binding = std::vector<Index>;
 inline constexpr Index kNone = ~Index{0};
 
-/// Is a value of a timeline.
+/// Holds a value of a timeline.
 struct Value {
   GroundState state;
   TimePoint start = 0, end = 0;
 };
 
-/// Is an activity: of a state, or of a behaviour that achieves none.
+/// Holds an activity: of a state, or of a behaviour that achieves none.
 struct Part {
   const temporal::PlanActivity* activity = nullptr;
   std::optional<GroundState> state;
@@ -44,6 +44,7 @@ struct Part {
   TimePoint end() const { return activity->end_point; }
 };
 
+/// Holds a plan taken apart, with its network.
 struct Version {
   const model::Model& model;
   const temporal::FlexiblePlan& plan;

@@ -1,4 +1,4 @@
-// What roci-timelines does with a model, apart from its command line.
+// These are the commands of roci-timelines, apart from its command line.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace roci::planner::timeline_htn::cli {
 
-/// Are the exit codes (docs/exit-codes.md).
+/// Names the exit codes (docs/exit-codes.md).
 enum ExitCode { done = 0, faulty = 1, wrong_use = 2, unsolved = 3, out_of_memory = 5, no_functions = 6 };
 
 /// Takes what people and what programs read.
@@ -25,6 +25,7 @@ using Files = std::vector<std::filesystem::path>;
 
 inline constexpr std::size_t kDefaultMegabytes = 1024;
 
+/// Holds the options of a planning run.
 struct PlanOptions {
   std::vector<search::Resolver> resolvers{search::Resolver{}};  ///< that search side by side
   std::size_t threads = 1;

@@ -1,4 +1,4 @@
-// The choices that a plan leaves open to whoever resolves them at run time (R131).
+// This file extracts the choices that a plan leaves open to whoever resolves them at run time (R131).
 #pragma once
 
 #include <string>
@@ -15,7 +15,7 @@ struct Numbering {
   std::string prefix;                       ///< of the activities' ids
   std::vector<search::Index> shown;         ///< by activity: its number; kNone: it is not shown
   std::vector<temporal::TimePoint> points;  ///< by time point
-  /// Are activities that stand for no one of the partial plan: their starts in it, and their ids.
+  /// Lists activities that stand for none of the partial plan: their starts in it, and their ids.
   std::vector<std::pair<search::TimePoint, std::string>> marks;
 
   std::string id(std::size_t number) const { return prefix + std::to_string(number); }

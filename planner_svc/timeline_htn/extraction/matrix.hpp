@@ -1,5 +1,6 @@
-// The plan as a matrix of values (R143): plan[i][j] is the value of timeline i from transition j on, where a transition
-// is a time point at which at least one timeline changes. Made from a FlexiblePlan alone, whoever has made that.
+// A matrix shows a plan as values (R143): plan[i][j] is the value of timeline i from transition j on, where a
+// transition is a time point at which at least one timeline changes. It is made from a FlexiblePlan alone, whoever made
+// that.
 #pragma once
 
 #include <string>
@@ -9,15 +10,17 @@
 
 namespace roci::planner::timeline_htn::extraction {
 
+/// Describes a time point at which at least one timeline changes.
 struct Transition {
   std::vector<temporal::TimePoint> points;  ///< that the network holds together
   temporal::Window window;                  ///< from the plan's origin
 };
 
+/// Holds a plan as a matrix of values (R143).
 struct Matrix {
   std::vector<std::string> timelines;
   std::vector<Transition> transitions;  ///< in the order of their earliest times; the first is the origin
-  /// Go by timeline and transition; none: nothing is planned then.
+  /// Holds the values by timeline and transition; none: nothing is planned then.
   std::vector<std::vector<temporal::Value>> values;
   std::vector<std::vector<bool>> changes;  ///< whether the timeline changes at the transition
 };

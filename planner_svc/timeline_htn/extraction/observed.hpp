@@ -1,4 +1,5 @@
-// What is observed of the states of a model, as those read it who never saw the model: values and conditions.
+// This file says what is observed of the states of a model, as values and conditions for readers that never
+// saw the model.
 #pragma once
 
 #include <vector>

@@ -1,4 +1,4 @@
-// The plan that a search has found, as everybody understands it.
+// This file makes the FlexiblePlan of what a search has found.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace roci::planner::timeline_htn::extraction {
 
-/// What a plan is called, and when it begins.
+/// Says what a plan is called, and when it begins.
 struct Head {
   std::string id;
   std::string prefix;  ///< of the activities' ids, so that no two plans share one

@@ -1,5 +1,5 @@
-// How large a model of timelines may be: it fits into memory together with what is searched on it. What is larger is
-// refused whole, and counted before anything is made of it.
+// These bounds say how large a model of timelines may be, so that it fits into memory together with what is searched
+// on it. A larger one is refused whole, and counted before anything is made of it.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
-// Everything that a model must fulfil before it is planned with, told at once: one plain sentence for each fault, with
-// the part of the model and what to do about it.
+// The check of a model reports at once everything that the model must fulfil before it is planned with: one plain
+// sentence for each fault, with the part of the model and the remedy.
 #pragma once
 
 #include <string>
@@ -12,6 +12,7 @@ namespace roci::planner::timeline_htn::model {
 /// Says which list of the model a fault lies in.
 enum class Part { model, component, state, behaviour, problem, prediction, goal };
 
+/// Describes one fault with its place in the model and its remedy.
 struct Fault {
   Part part = Part::model;
   Index index = 0;       ///< in the list of that part; of a state or prediction: of its component

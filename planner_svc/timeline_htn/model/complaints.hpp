@@ -1,4 +1,4 @@
-// What the parts of the check share: a place to put faults.
+// Complaints are what the parts of the check share: a place to put faults.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// Expressions and static tests with objects in place of variables.
+// This file evaluates expressions and static tests with objects in place of variables.
 #pragma once
 
 #include <compare>
@@ -31,7 +31,7 @@ struct Bounds {
 /// there is no such state then.
 std::optional<Bounds> bounds(const Model& model, const State& state, std::span<const Index> objects);
 
-/// Is a number that a service is asked for.
+/// Names a number that a service is asked for.
 struct AskedNumber {
   Index table = 0;
   std::vector<Index> row;

@@ -19,34 +19,35 @@ namespace roci::planner::timeline_htn::model {
 
 using Index = std::uint32_t;
 
+/// Names an object of a type.
 struct Object {
   std::string name;
   Index type = 0;
   friend bool operator==(const Object&, const Object&) = default;
 };
 
-/// Is a variable with the type of the objects that it stands for.
+/// Names a variable with the type of the objects that it stands for.
 struct Variable {
   std::string name;
   Index type = 0;
   friend bool operator==(const Variable&, const Variable&) = default;
 };
 
-/// Is a variable of the scope in which it stands, by number, or an object.
+/// Names a variable of the scope in which it stands, by number, or an object.
 struct Term {
   Index index = 0;
   bool object = false;
   friend bool operator==(const Term&, const Term&) = default;
 };
 
-/// Is a table over objects: rows of a relation, or the numbers of a function.
-/// What has no row does not hold, or has no number.
+/// Holds a table over objects: rows of a relation, or the numbers of a function. What has no row does not
+/// hold, or has no number.
 struct Relation {
   std::string name;
   std::vector<Index> types;
   std::vector<std::vector<Index>> rows;  ///< sorted, each once
-  /// Is set where a relation is observed: it holds of a and b, too,
-  /// where the timeline "TIMELINE.a.b" has this value. Else both are empty.
+  /// Names, where a relation is observed, its timeline and value: the relation holds of a and b, too, where
+  /// the timeline "TIMELINE.a.b" has this value. Else both are empty.
   std::string timeline{};
   std::string value{};
   friend bool operator==(const Relation&, const Relation&) = default;
@@ -60,6 +61,8 @@ struct AskedNumbers {
   bool given = false;            ///< whether the numbers have come
   friend bool operator==(const AskedNumbers&, const AskedNumbers&) = default;
 };
+
+/// Holds the numbers of a function over objects.
 struct NumberTable {
   std::string name;
   std::vector<Index> types;
@@ -68,8 +71,9 @@ struct NumberTable {
   friend bool operator==(const NumberTable&, const NumberTable&) = default;
 };
 
+/// Names the operators of expressions.
 enum class Operator { constant, table, add, subtract, multiply, divide };
-/// Is one node of an expression.
+/// Holds one node of an expression.
 struct ExpressionNode {
   Operator op = Operator::constant;
   double constant = 0;
@@ -77,11 +81,13 @@ struct ExpressionNode {
   std::vector<Term> terms;  ///< of the table
   friend bool operator==(const ExpressionNode&, const ExpressionNode&) = default;
 };
-/// Is a number made of constants and tables, in postfix order.
+/// Holds a number made of constants and tables, in postfix order.
 using Expression = std::vector<ExpressionNode>;
 
+/// Names the comparisons of numbers.
 enum class Comparison { lt, le, eq, ne, ge, gt };
-/// Is a static test: a relation that holds or does not, two equal or unequal terms, or two numbers that are compared.
+/// Holds a static test: a relation that holds or does not, two equal or unequal terms, or two numbers that are
+/// compared.
 struct Test {
   enum class Kind { relation, terms, numbers } kind = Kind::relation;
   bool negated = false;  ///< of a relation
@@ -92,7 +98,7 @@ struct Test {
   friend bool operator==(const Test&, const Test&) = default;
 };
 
-/// Is a state of a component with terms in place of its parameters.
+/// Names a state of a component with terms in place of its parameters.
 struct Pattern {
   Index component = 0;
   Index state = 0;
@@ -100,7 +106,10 @@ struct Pattern {
   friend bool operator==(const Pattern&, const Pattern&) = default;
 };
 
-enum class Layer { abstract, primitive };  ///< R135
+/// Says on which layer of the hierarchy a component stands (R135).
+enum class Layer { abstract, primitive };
+
+/// Says how a state comes about.
 enum class StateKind {
   complex,  ///< brought about by a behaviour, whose subgoals are its parts
   simple,   ///< lasts as its duration says; may have a command
@@ -108,7 +117,7 @@ enum class StateKind {
   resting,  ///< "default": lasts as long as nothing else is asked of the component
 };
 
-/// Is the value of a timeline by which a state is seen. Terms are the state's parameters.
+/// Describes the value of a timeline by which a state is seen. Terms are the state's parameters.
 struct Observed {
   std::string timeline;
   std::string word;         ///< name of the state, "true", "false" or a number
@@ -116,7 +125,7 @@ struct Observed {
   friend bool operator==(const Observed&, const Observed&) = default;
 };
 
-/// Is an argument of a command: words, with terms for the places that parameters fill.
+/// Describes an argument of a command: words, with terms for the places that parameters fill.
 struct Argument {
   std::string name;
   std::string text;          ///< without a term: the value as it is
@@ -125,6 +134,7 @@ struct Argument {
   friend bool operator==(const Argument&, const Argument&) = default;
 };
 
+/// Describes the command of a state, as PlanCommand.
 struct Command {
   std::string owner;
   std::string robot;
@@ -142,7 +152,7 @@ enum class NeedKind {
   met_by,    ///< the other ends just at the start
 };
 
-/// Is a dependency (R136): what a state needs of another component. Terms are parameters of the state,
+/// Describes a dependency (R136): what a state needs of another component. Terms are parameters of the state,
 /// or free: some state that fits.
 struct Need {
   NeedKind kind = NeedKind::during;
@@ -150,6 +160,7 @@ struct Need {
   friend bool operator==(const Need&, const Need&) = default;
 };
 
+/// Describes a state of a component, with what it needs and how it is seen.
 struct State {
   std::string name;
   StateKind kind = StateKind::simple;
@@ -176,7 +187,7 @@ struct Transition {
   friend bool operator==(const Transition&, const Transition&) = default;
 };
 
-/// Has one timeline.
+/// Describes a component, which has one timeline.
 struct Component {
   std::string name;
   Layer layer = Layer::primitive;
@@ -186,7 +197,7 @@ struct Component {
   friend bool operator==(const Component&, const Component&) = default;
 };
 
-/// Is what has to come about for a behaviour.
+/// Says what has to come about for a behaviour.
 struct Subgoal {
   std::string name;
   Pattern state;
@@ -194,7 +205,7 @@ struct Subgoal {
   friend bool operator==(const Subgoal&, const Subgoal&) = default;
 };
 
-/// Is the start or end of a subgoal, or of the behaviour itself.
+/// Names the start or end of a subgoal, or of the behaviour itself.
 struct Point {
   std::optional<Index> subgoal;  ///< nothing: the behaviour
   bool end = false;
@@ -209,7 +220,7 @@ struct SubgoalConstraint {
   friend bool operator==(const SubgoalConstraint&, const SubgoalConstraint&) = default;
 };
 
-/// Is one of the ways in which a decision may go.
+/// Describes one of the ways in which a decision may go.
 struct Choice {
   std::string name;
   std::vector<Index> subgoals;
@@ -218,9 +229,9 @@ struct Choice {
   friend bool operator==(const Choice&, const Choice&) = default;
 };
 
-/// Is a decision that the plan leaves open (R131): a choice among groups of subgoals, of which the plan reckons with
-/// the first; the value of a variable in the arguments of commands; or what else a variable might stand for, of which
-/// the plan reckons with one object.
+/// Describes a decision that the plan leaves open (R131): a choice among groups of subgoals, of which the plan
+/// reckons with the first; the value of a variable in the arguments of commands; or what else a variable might stand
+/// for, of which the plan reckons with one object.
 struct Decision {
   std::string name;
   temporal::ResolverKind resolver_kind = temporal::ResolverKind::ground;
@@ -243,14 +254,14 @@ struct Decision {
   friend bool operator==(const Decision&, const Decision&) = default;
 };
 
-/// Is a condition of a behaviour at its start.
+/// Holds a condition of a behaviour at its start.
 struct Precondition {
   Pattern state;
   bool negated = false;
   friend bool operator==(const Precondition&, const Precondition&) = default;
 };
 
-/// Is a network of subgoals (R137, section 4.2.2).
+/// Describes a network of subgoals (R137, section 4.2.2).
 struct Behaviour {
   std::string name;
   std::optional<Pattern> achieves;  ///< a complex state; nothing: it has triggers alone
@@ -266,6 +277,7 @@ struct Behaviour {
   friend bool operator==(const Behaviour&, const Behaviour&) = default;
 };
 
+/// Describes a goal: a state that is to come about within a window.
 struct Goal {
   std::string id;               ///< "issuer/id", or a name of the problem's own
   Pattern state;                ///< objects alone
@@ -275,14 +287,14 @@ struct Goal {
   friend bool operator==(const Goal&, const Goal&) = default;
 };
 
-/// Is a state that a component is known to come to, whatever the plan: of objects alone.
+/// Holds a state that a component is known to come to, whatever the plan: of objects alone.
 struct PredictedState {
   temporal::Duration at{0};  ///< counts from the origin
   Pattern state;
   friend bool operator==(const PredictedState&, const PredictedState&) = default;
 };
 
-/// Is P: where every component begins, what is known to come, and what is asked for.
+/// Describes P: where every component begins, what is known to come, and what is asked for.
 struct Problem {
   temporal::Duration horizon = temporal::no_bound;  ///< H; counts from the origin
   std::vector<std::optional<Pattern>> initial;      ///< by component; objects alone
@@ -294,6 +306,7 @@ struct Problem {
   friend bool operator==(const Problem&, const Problem&) = default;
 };
 
+/// Holds domain and behaviours, with a problem if one was read.
 struct Model {
   std::string name;
   std::vector<std::string> types;
@@ -306,7 +319,7 @@ struct Model {
   friend bool operator==(const Model&, const Model&) = default;
 };
 
-/// Is a state without variables: what a timeline holds.
+/// Holds a state without variables: what a timeline holds.
 struct GroundState {
   Index component = 0;
   Index state = 0;

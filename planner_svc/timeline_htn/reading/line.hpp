@@ -11,7 +11,7 @@
 
 namespace roci::planner::timeline_htn::reading {
 
-/// Is a name with arguments: "edge(a, b)".
+/// Holds a name with arguments: "edge(a, b)".
 struct Application {
   std::string name;
   std::vector<std::string> arguments;

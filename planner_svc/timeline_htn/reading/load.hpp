@@ -1,4 +1,4 @@
-// A model from files or texts, checked: what everybody calls who wants to plan with one (R134).
+// This file loads a checked model from files or texts: everybody who wants to plan with one calls it (R134).
 // docs/timeline-format.md is the schema.
 #pragma once
 
@@ -12,10 +12,11 @@
 
 namespace roci::planner::timeline_htn::reading {
 
-/// The version of the form, and the newest that is read (docs/formats.md).
+/// Numbers the version of the form, the newest that is read (docs/formats.md).
 inline constexpr int kFormat = 1;
 
-/// Is a part of a model that came otherwise than as a file; `name` stands for the file in what is said of places.
+/// Holds a part of a model that came otherwise than as a file; `name` stands for the file in what is said of
+/// places.
 struct Text {
   std::string name;
   std::string content;

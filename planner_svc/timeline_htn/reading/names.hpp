@@ -1,4 +1,4 @@
-// The names of a model while it is read: what refers to what.
+// This file keeps the names of a model while it is read.
 #pragma once
 
 #include <map>

@@ -1,5 +1,5 @@
-// The sections of a model, each read from an entry into the vocabulary, in this order;
-// the last ones refer to the first.
+// Each section of a model is read from an entry into the vocabulary, in this order; the last ones refer to
+// the first.
 #pragma once
 
 #include <map>

@@ -1,4 +1,5 @@
-// What the lines of a model mean: names are looked up, and every object stands where its type may.
+// The vocabulary gives the lines of a model their meaning: names are looked up, and every object stands where
+// its type may.
 #pragma once
 
 #include <limits>
@@ -22,7 +23,7 @@ constexpr bool may_be_same(model::Index one, model::Index other) {
 /// Holds the variables that a line may use.
 struct Scope {
   std::vector<model::Variable> variables;
-  /// Whether a name that is neither variable nor object becomes a variable.
+  /// Says whether a name that is neither variable nor object becomes a variable.
   bool grows = false;
 };
 

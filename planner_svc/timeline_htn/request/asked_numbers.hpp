@@ -1,5 +1,5 @@
-// Numbers of a model that services give (R35, R36): asked for before the search, table by table,
-// through the port that every engine has.
+// This file asks services for numbers of a model (R35, R36) before the search, table by table, through the
+// port that every engine has.
 #pragma once
 
 #include <functional>
@@ -13,7 +13,7 @@
 
 namespace roci::planner::timeline_htn::request {
 
-/// Is what owners said, and why nothing can be planned with it.
+/// Holds what owners said, and why nothing can be planned with it.
 struct Asked {
   std::vector<engine::FunctionUse> uses;
   /// solved: every number came, or is known not to exist, or was not found; such a one has no row.

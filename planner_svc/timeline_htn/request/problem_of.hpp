@@ -1,4 +1,5 @@
-// A request as the engine's own problem: where the components are by what is observed, and what is asked for.
+// This file makes of a request the engine's own problem: where the components are by what is observed, and
+// what is asked for.
 #pragma once
 
 #include <optional>
@@ -31,7 +32,7 @@ std::optional<model::Model> read_model(const engine::Request& request, mission::
 /// problem that can be checked.
 std::vector<Misfit> put_request(const engine::Request& request, model::Model& model);
 
-/// Is what the timelines of a request show of a component.
+/// Holds what the timelines of a request show of a component.
 struct Observation {
   std::optional<model::Pattern> state;  ///< of objects alone; nothing: none of its states is seen
   std::string seen;  ///< "nav = parked(wp1)", also where that is no state of it; empty: nothing

@@ -1,4 +1,4 @@
-// The objects that variables of behaviours stand for, kept once each.
+// Bindings are the objects that variables of behaviours stand for, kept once each.
 #pragma once
 
 #include <cstddef>

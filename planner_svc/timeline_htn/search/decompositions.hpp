@@ -1,5 +1,5 @@
-// What a complex state can be made of, whatever the timelines: the and/or graph of behaviours below it,
-// relaxed of conditions and times.
+// Decompositions say what a complex state can be made of, whatever the timelines: the and/or graph of
+// behaviours below it, relaxed of conditions and times.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// How early the goals can come about by what is predicted, whatever else is planned:
-// a proof that one comes too late, without a search.
+// Earliest times say how early the goals can come about by what is predicted, whatever else is planned: a
+// proof, without a search, that one comes too late.
 #pragma once
 
 #include <optional>
@@ -9,7 +9,7 @@
 
 namespace roci::planner::timeline_htn::search {
 
-/// Is a goal that no plan brings about in its window.
+/// Names a goal that no plan brings about in its window.
 struct TooLate {
   Index goal = kNone;
   std::string reason;

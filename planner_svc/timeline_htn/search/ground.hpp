@@ -1,4 +1,5 @@
-// States with objects in place of parameters, made when they are first met, and what may follow them.
+// Ground states have objects in place of parameters; they are made when they are first met, with what may
+// follow them.
 #pragma once
 
 #include <cstddef>
@@ -20,13 +21,13 @@ inline constexpr Index kNone = ~Index{0};
 /// Values by which a timeline goes on by itself, without a command, for a condition that looks at it.
 inline constexpr std::size_t kStepsByItself = 3;
 
-/// Is a set of components: the bit of each by its number.
+/// Holds a set of components: the bit of each by its number.
 using ComponentSet = std::uint64_t;
 
 /// Returns the state of a pattern whose variables stand for these objects.
 model::GroundState ground_of(const model::Pattern& pattern, const std::vector<Index>& objects);
 
-/// Is what a timeline can hold.
+/// Describes what a timeline can hold.
 struct Instance {
   model::GroundState state;
   model::Bounds bounds;

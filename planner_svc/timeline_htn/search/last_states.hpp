@@ -1,4 +1,5 @@
-// In which state a timeline can stand when a behaviour is complete: what its last part leaves it in.
+// Last states say in which state a timeline can stand when a behaviour is complete: what its last part leaves
+// it in.
 #pragma once
 
 #include <optional>

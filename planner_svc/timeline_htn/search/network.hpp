@@ -1,4 +1,4 @@
-// A simple temporal network that a search builds and takes back: earliest times and consistency.
+// This is a simple temporal network that a search builds and takes back: earliest times and consistency.
 #pragma once
 
 #include <cstdint>
@@ -34,7 +34,7 @@ class Network {
   Mark mark() const { return {earliest_.size(), edges_.size(), raised_.size()}; }
   void take_back(const Mark& mark);
 
-  /// Is a constraint as it was added.
+  /// Holds a constraint as it was added.
   struct Edge {  // t[to] >= t[from] + weight
     TimePoint from, to;
     Duration weight;

@@ -1,4 +1,4 @@
-// A plan while it is built: timelines that grow at their ends, the hierarchy above them,
+// A partial plan is a plan while it is built: timelines that grow at their ends, the hierarchy above them,
 // what is still to be done, and time.
 #pragma once
 
@@ -13,7 +13,7 @@
 
 namespace roci::planner::timeline_htn::search {
 
-/// Is a value of a timeline. Its start is the end of the one before.
+/// Holds a value of a timeline. Its start is the end of the one before.
 struct Token {
   StateId state = kNone;
   TimePoint start = 0;
@@ -22,11 +22,13 @@ struct Token {
   Index before = kNone;    ///< token of the same timeline
   Index cause = kNone;     ///< activity for which it was appended; kNone: none, or where the timeline began
   Index ended = 0;         ///< 1: something asks for its end before the horizon
-  /// Is of what mends an error, or what its timeline goes on with at once: neither waits for the mending.
+  /// Says whether it belongs to what mends an error, or to what its timeline goes on with at once: neither
+  /// waits for the mending.
   bool mends = false;
 };
 
-/// Is a node of the hierarchy: a subgoal, a goal, a step between two states, or a behaviour that mends an error.
+/// Holds a node of the hierarchy: a subgoal, a goal, a step between two states, or a behaviour that mends an
+/// error.
 struct Activity {
   StateId state = kNone;  ///< kNone: of a behaviour that was triggered
   Index parent = kNone;
@@ -34,7 +36,8 @@ struct Activity {
   TimePoint end = 0;
   model::Bounds bounds;
   Index goal = kNone;  ///< of the problem
-  /// Of the parent's behaviour; kNone: goals, and steps that transitions or needs ask for.
+  /// Numbers the subgoal of the parent's behaviour; kNone: a goal, or a step that transitions or needs ask
+  /// for.
   Index subgoal = kNone;
   Index behaviour = kNone;  ///< that was chosen for a complex state
   Index binding = kNone;    ///< of its variables
@@ -49,8 +52,10 @@ struct Activity {
   Index choice = kNone;  ///< of a decision over a variable, beside: the object that it stands for
 };
 
-/// Says what must be settled before anything else, or nothing.
+/// Says what kind of thing must be settled before anything else.
 enum class UrgentKind : std::uint8_t { decompose, need, path_to_need, condition };
+
+/// Holds one thing that must be settled before anything else, on a stack of such.
 struct Urgent {
   UrgentKind kind = UrgentKind::decompose;
   Index subject = 0;     ///< activity, or token that needs
@@ -74,6 +79,8 @@ enum class StepKind : std::uint8_t {
   rest,
   condition_here
 };
+
+/// Holds one step of the search.
 struct Step {
   StepKind kind = StepKind::attach;
   Index subject = 0;  ///< activity, token or component
@@ -102,7 +109,7 @@ struct Obstacle {
   StateId at = kNone;  ///< where the timeline stood
 };
 
-/// Is changed by steps and taken back step by step: what a step costs is what it changes.
+/// Holds a plan that is changed by steps and taken back step by step: what a step costs is what it changes.
 class PartialPlan {
  public:
   /// The problem must be there and checked. Goals stand in the order in which they are to be tried.

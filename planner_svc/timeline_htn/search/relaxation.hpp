@@ -1,4 +1,5 @@
-// The relaxed problem that is followed to prove that there is no plan (relaxed_reachability.hpp).
+// The relaxation is the relaxed problem that is followed to prove that there is no plan
+// (relaxed_reachability.hpp).
 #pragma once
 
 #include <cstddef>
@@ -27,7 +28,7 @@ class Relaxation {
   std::optional<NeverReached> run();
 
  private:
-  /// Is one behaviour with its objects. Objects that neither parts nor conditions hold are left open.
+  /// Describes one behaviour with its objects. Objects that neither parts nor conditions hold are left open.
   struct Way {
     Index behaviour = 0;
     std::vector<Index> objects;
@@ -35,7 +36,7 @@ class Relaxation {
     bool left_out = false;
     bool begun = false;
   };
-  /// Is a complex state below states of these components, or a behaviour that is triggered.
+  /// Holds a complex state below states of these components, or a behaviour that is triggered.
   struct Task {
     StateId state = kNone;
     ComponentSet above = 0;
@@ -44,7 +45,7 @@ class Relaxation {
     bool done = false;
     bool asked = true;  ///< for the goals, where errors are mended before
   };
-  /// Is a group of states that are asked for and that the same states lead to.
+  /// Holds a group of states that are asked for and that the same states lead to.
   struct Wish {
     Index part = 0;  // of the transition graph
     bool by_complex = true;

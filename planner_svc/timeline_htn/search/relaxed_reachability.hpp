@@ -1,4 +1,4 @@
-// What no plan can come to, proved without a search.
+// Relaxed reachability proves without a search what no plan can come to.
 #pragma once
 
 #include <cstddef>

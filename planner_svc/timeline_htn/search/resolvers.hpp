@@ -1,4 +1,4 @@
-// Several searches side by side (R132): the first among them by work, not by time, gives the plan.
+// Several searches run side by side (R132): the first among them by work, not by time, gives the plan.
 #pragma once
 
 #include <cstddef>
@@ -20,6 +20,7 @@ std::optional<Resolver> resolver_named(std::string_view name);
 /// Returns all such names.
 std::vector<std::string> resolver_names();
 
+/// Holds the outcome of several searches side by side.
 struct Resolution {
   Outcome outcome = Outcome::searching;
   std::unique_ptr<Search> search;  ///< whose plan or whose reason it is

@@ -1,5 +1,5 @@
-// The search of the hierarchical timeline engine: forward in time from the initial state (R133),
-// hierarchy built and kept (R130).
+// The search of the hierarchical timeline engine goes forward in time from the initial state (R133), and
+// builds and keeps the hierarchy (R130).
 #pragma once
 
 #include <cstdint>
@@ -18,15 +18,17 @@
 
 namespace roci::planner::timeline_htn::search {
 
+/// Names what estimates how much is left to do.
 enum class Heuristic { blind, relaxed_plan, landmarks };
 
-/// Is one way to search: they differ in what they try first.
+/// Describes one way to search; ways differ in what they try first.
 struct Resolver {
   Heuristic heuristic = Heuristic::blind;
   Order order = Order::first_declared;
   friend bool operator==(const Resolver&, const Resolver&) = default;
 };
 
+/// Says how far a search has come.
 enum class Outcome {
   searching,
   solved,
@@ -35,6 +37,7 @@ enum class Outcome {
   cancelled,
 };
 
+/// Counts what a search did, and what it keeps.
 struct Count {
   std::uint64_t expanded = 0;   ///< plans of which the steps were looked at
   std::uint64_t evaluated = 0;  ///< steps that were tried
@@ -56,8 +59,8 @@ std::unique_ptr<Estimate> make_estimate(Heuristic heuristic, Ground& ground, con
 /// first, then the first in the problem.
 std::vector<Index> goal_order(const model::Problem& problem);
 
-/// Is a greedy best-first search with deferred evaluation; blind it is depth-first. It is resumable, and the same
-/// model, resolver and budgets give the same steps.
+/// Runs a greedy best-first search with deferred evaluation; blind it is depth-first. It is resumable, and the
+/// same model, resolver and budgets give the same steps.
 ///
 /// It searches in up to five passes, each of which finds more and takes longer. The first goes straight from state to
 /// state of a timeline, and drops a plan whose timelines and open activities are those of one that was seen, whatever
@@ -76,7 +79,8 @@ class Search {
 
   /// Goes on until it is solved or exhausted, or so many steps were tried in all.
   Outcome run(std::uint64_t evaluations, std::size_t memory_bytes, const std::function<bool()>& cancelled);
-  /// From now on only the search itself proves anything: what the relaxed reachability is compared with.
+  /// Lets only the search itself prove anything from now on, so that the relaxed reachability can be compared
+  /// with it.
   void prove_by_search_alone() { looked_at_ = true; }
   Outcome state() const { return state_; }
   const Count& count() const { return count_; }
@@ -86,7 +90,7 @@ class Search {
   const Bindings& bindings() const { return bindings_; }
   /// Returns, with exhausted, what the search that came farthest met, in words.
   std::string reason() const;
-  /// The goal for which it says so; kNone: none in particular.
+  /// Returns the goal of which reason() speaks; kNone: none in particular.
   Index blocking_goal() const;
 
  private:

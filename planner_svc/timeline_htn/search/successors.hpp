@@ -1,4 +1,4 @@
-// What may be done next with a plan that is being built.
+// Successors say what may be done next with a plan that is being built.
 #pragma once
 
 #include <map>
@@ -26,15 +26,16 @@ class Successors {
   Successors(Ground& ground, Bindings& bindings, Order order);
   ~Successors();
 
-  /// Writes the steps in the order in which they are to be tried. None: a dead end, or the plan is whole.
+  /// Writes the steps in the order in which they are to be tried. There are none at a dead end, or if the
+  /// plan is whole.
   void of(const PartialPlan& plan, std::vector<Step>& out);
   /// Returns whether nothing is left to do but to let the timelines end.
   static bool whole(const PartialPlan& plan, const Ground& ground);
-  /// From now on a timeline may also take a longer way to a state than the shortest.
+  /// Lets a timeline take a longer way to a state than the shortest, from now on.
   void permit_detours() { detours_ = true; }
   /// Returns whether there were longer ways that were not given.
   bool left_out() const { return left_out_; }
-  /// From now on a timeline may also leave a state that is wanted and come back to it.
+  /// Lets a timeline leave a wanted state and come back to it, from now on.
   void permit_rounds() { rounds_ = true; }
   /// Returns whether there were such ways that were not given.
   bool round_left_out() const { return round_left_out_; }

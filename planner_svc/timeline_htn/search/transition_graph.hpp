@@ -1,4 +1,5 @@
-// All states that a timeline can come to by its transitions alone, and which of them lead to which.
+// The transition graph has all states that a timeline can come to by its transitions alone, and which of them
+// lead to which.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// A plan that was made with another network than the one in force: what of it the latter can go on with.
+// This file finds what of a plan made with another network the network in force can go on with.
 #pragma once
 
 #include <cstdint>
@@ -9,6 +9,7 @@
 
 namespace roci::planner::utility_htn::adapter {
 
+/// Holds a plan as far as the network in force can go on with it, and what is gone of it.
 struct Fitted {
   temporal::FlexiblePlan plan;               ///< that recover() takes
   std::vector<temporal::PlanActivity> gone;  ///< of blocks that the network does not have

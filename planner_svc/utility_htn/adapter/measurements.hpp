@@ -1,5 +1,5 @@
-// What executed activities took and brought: the executive tells when they ended,
-// the owners of their commands the rest (R76, R101, R116).
+// Measurements are what executed activities took and brought: the executive tells when they ended, the owners
+// of their commands the rest (R76, R101, R116).
 #pragma once
 
 #include <functional>
@@ -14,7 +14,7 @@
 
 namespace roci::planner::utility_htn::adapter {
 
-/// Puts both words on an activity together, whichever comes first, and gives each measurement out once.
+/// Joins what executive and owners say of an activity, in either order, and gives each measurement out once.
 class Measurements {
  public:
   struct Measurement {
@@ -22,10 +22,11 @@ class Measurements {
     assessor::Measured measured;
   };
 
-  /// Only what has succeeded counts.
+  /// Take in what was heard; only what has succeeded counts.
   void hear(const engine::StepStatus& step);
   void hear(const engine::CommandResult& result);
-  /// Takes that the measurements of these activities stand in the values already: another process took them.
+  /// Takes in that the measurements of these activities stand in the values already: another process took
+  /// them.
   void resume(std::set<std::string> taken) { taken_ = std::move(taken); }
   /// Returns what can be learned by now: a duration at its activity's end, energy, power and values when the results of
   /// all commands are there.

@@ -1,5 +1,5 @@
-// What the engine expects of its plan, for operators and for whoever sends data: the downlink schedule, utility by
-// rank, energy, and the science subway map (R110–R115, R127).
+// The outlook is what the engine expects of its plan, for operators and for whoever sends data: the downlink
+// schedule, utility by rank, energy, and the science subway map (R110–R115, R127).
 #pragma once
 
 #include <cstdint>
@@ -7,13 +7,13 @@
 #include <string>
 #include <vector>
 
-#include "planner_svc/engine/outlook.hpp"
+#include "planner_svc/engine/mission_outlook.hpp"
 #include "planner_svc/utility_htn/cycle/cycle.hpp"
 #include "planner_svc/utility_htn/delivery/delivery.hpp"
 
 namespace roci::planner::utility_htn::adapter {
 
-/// Is what an outlook is made of. All outlive it.
+/// Refers to what an outlook is made of, all of which must outlive it.
 struct Situation {
   const model::Network& network;
   const flattening::Chains& chains;

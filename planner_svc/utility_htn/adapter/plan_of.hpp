@@ -1,4 +1,4 @@
-// A cycle's blocks as the plan that the executive runs, and back (R66, R84, R98, R99).
+// This file turns a cycle's blocks into the plan that the executive runs, and back (R66, R84, R98, R99).
 #pragma once
 
 #include <map>
@@ -12,7 +12,7 @@
 
 namespace roci::planner::utility_htn::adapter {
 
-/// Says of a plan what its blocks do not.
+/// Holds what a plan says beside its blocks.
 struct Frame {
   std::string engine;
   std::string robot;
@@ -62,10 +62,10 @@ temporal::PlanActivity initial_activity(const model::Network& network, const cyc
 /// Returns whether the activity is one of initial_activity().
 bool is_initial(const temporal::PlanActivity& activity);
 
-/// Is what a plan tells of the cycle that made it.
+/// Holds what a plan tells of the cycle that made it.
 struct Recovered {
   cycle::Past past;
-  /// When internal timelines had the values of `past`; none: the plan is of an engine that did not tell.
+  /// Says when internal timelines had the values of `past`; none: the plan is of an engine that did not tell.
   std::optional<temporal::Time> past_until{};
   std::vector<cycle::Block> blocks;
   std::uint32_t last_block = 0;

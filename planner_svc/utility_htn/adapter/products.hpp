@@ -1,4 +1,4 @@
-// Data products as planner_svc hears them, in the words of the network (R115).
+// This file brings data products as planner_svc hears them into the words of the network (R115).
 #pragma once
 
 #include "planner_svc/engine/stepped_engine.hpp"

@@ -1,4 +1,5 @@
-// What a mission chooses of the engine: `planner: {engine: utility_htn, resolvers: [anytime, earliest]}`.
+// Resolvers are what a mission chooses of the engine: `planner: {engine: utility_htn, resolvers: [anytime,
+// earliest]}`.
 #pragma once
 
 #include <string>
@@ -8,6 +9,7 @@
 
 namespace roci::planner::utility_htn::adapter {
 
+/// Holds the way to search and the scheduler that a mission chose.
 struct Resolvers {
   cycle::Search search = cycle::Search::once;
   std::string scheduler = "nearest";  ///< search::make_scheduler() knows it

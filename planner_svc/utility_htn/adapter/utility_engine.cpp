@@ -8,6 +8,7 @@
 #include "planner_svc/utility_htn/adapter/products.hpp"
 #include "planner_svc/utility_htn/adapter/resolvers.hpp"
 #include "planner_svc/utility_htn/assessor/subway_assessor.hpp"
+#include "planner_svc/utility_htn/reading/binary.hpp"
 
 namespace roci::planner::utility_htn::adapter {
 
@@ -41,6 +42,8 @@ UtilityEngine::UtilityEngine(const engine::Setup& setup, model::Network network,
 }
 
 UtilityEngine::~UtilityEngine() = default;
+
+std::string UtilityEngine::packed_model() const { return reading::to_binary(network_); }
 
 // The first cycle cannot commit what would have to start at once. What began before it and has no command, as a view of
 // Earth, holds for the rest of its time; a command that is late is missed.

@@ -1,5 +1,5 @@
-// The utility-driven engine as planner_svc steps it (R66, R77–R81): it hears observations, goals and what became of
-// tasks, runs its cycle at the process interval, and sends versions of its plan.
+// This is the utility-driven engine as planner_svc steps it (R66, R77–R81): it hears observations, goals and what
+// became of tasks, runs its cycle at the process interval, and sends versions of its plan.
 #pragma once
 
 #include <map>
@@ -27,6 +27,7 @@ class UtilityEngine final : public engine::SteppedEngine {
   ~UtilityEngine() override;
 
   engine::StepOutput step(const engine::StepInputs& inputs) override;
+  std::string packed_model() const override;
   /// Replaces a parameter's value by what was measured or found (R116). Returns why not, if it cannot.
   std::string learn(const std::string& parameter, double value);
 

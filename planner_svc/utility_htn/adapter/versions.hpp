@@ -1,4 +1,4 @@
-// The version that the executive has, and the one that may be on its way to it (R66, R81).
+// This file keeps the version that the executive has, and the one that may be on its way to it (R66, R81).
 #pragma once
 
 #include <cstdint>
@@ -8,19 +8,19 @@
 
 namespace roci::planner::utility_htn::adapter {
 
-/// Knows what the next version changes. Who steps the engine gives it each version that is executed and that it cannot
-/// know (StepInputs::executed), so two plans are all that is kept.
+/// Knows what the next version changes. The host that steps the engine gives it each version that is executed and that
+/// it cannot know (StepInputs::executed), so two plans are all that is kept.
 class Versions {
  public:
-  /// Is the newest that was sent as long as it may be taken, else the executed one. Version 0:
-  /// the next one comes whole.
+  /// Returns the newest that was sent as long as it may be taken, else the executed one. Version 0: the next
+  /// one comes whole.
   const temporal::FlexiblePlan& base() const { return open_ ? sent_ : executed_; }
 
   void send(temporal::FlexiblePlan plan) {
     sent_ = std::move(plan);
     open_ = true;
   }
-  /// Takes that this version is executed, whoever sent it.
+  /// Takes in that this version is executed, whoever sent it.
   void resume(const temporal::FlexiblePlan& executed) {
     executed_ = executed;
     sent_ = {};
@@ -43,7 +43,8 @@ class Versions {
   }
   /// Counts the versions that were refused since one was taken: what they would have changed is not in force.
   std::uint32_t refused_in_turn() const { return refused_in_turn_; }
-  /// Takes that nobody has answered for so long that the newest one counts as lost. Returns whether there was one.
+  /// Takes in that nobody has answered for so long that the newest version counts as lost. Returns whether there
+  /// was one.
   bool give_up() { return std::exchange(open_, false); }
 
  private:

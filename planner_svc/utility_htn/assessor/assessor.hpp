@@ -14,7 +14,7 @@
 
 namespace roci::planner::utility_htn::assessor {
 
-/// Is data that was generated on board.
+/// Describes data that were generated on board.
 struct ExistingProduct {
   std::string id;
   model::TaskIndex task = 0;       ///< the primitive task that generated it
@@ -23,7 +23,7 @@ struct ExistingProduct {
   friend bool operator==(const ExistingProduct&, const ExistingProduct&) = default;
 };
 
-/// Is what a prediction depends on.
+/// Holds what a prediction depends on.
 struct Context {
   const model::Network& network;
   const model::Values& values;
@@ -34,15 +34,15 @@ struct Context {
   std::span<const model::TaskIndex> closed;   ///< requests that are done, failed for good or withdrawn
 };
 
-/// Predicts chains again and again while nothing but what is planned changes, as in a search: what else a prediction
-/// depends on is looked at once.
+/// Predicts chains again and again while only the plan changes, as in a search: what else a prediction depends on is
+/// read once.
 class Forecast {
  public:
   virtual ~Forecast() = default;
 
-  /// Takes what is planned from here on, in the order of starts.
+  /// Takes the plan from here on, in the order of starts.
   virtual void plan(std::span<const std::uint32_t> planned) = 0;
-  /// Takes one chain more, which starts after all that is planned.
+  /// Takes one more chain, which starts after all that is planned.
   virtual void plan_next(std::uint32_t chain) = 0;
   /// Returns what Assessor::predicted() does after what is planned; where that breaks a rule of the mission, perhaps
   /// another vector that does.

@@ -10,15 +10,16 @@
 
 namespace roci::planner::utility_htn::assessor {
 
-/// Is what an executed task was measured to take; what was not measured is left out.
+/// Holds what an executed task was measured to take; what was not measured is left out.
 struct Measured {
   std::optional<double> duration_s{};
   std::optional<double> energy{};  ///< in the unit of the budget
   std::optional<double> power{};   ///< energy per second, the mean over the task
-  /// Are numbers that its commands brought, by name (R108); nothing: they have not said yet.
+  /// Holds numbers that its commands brought, by name (R108); nothing: they have not said yet.
   std::optional<std::map<std::string, double>> values{};
 };
 
+/// Says which parameters were replaced, and which values were refused.
 struct Learned {
   std::vector<model::ParameterIndex> replaced{};
   std::vector<std::string> refused{};  ///< one plain sentence each; these values stay as they were

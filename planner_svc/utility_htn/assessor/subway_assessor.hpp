@@ -1,4 +1,4 @@
-// The Assessor of missions with a subway map (MEXEC, sections II.B.2, IV.C.1 and IV.C.2, R112–R115).
+// This is the Assessor of missions with a subway map (MEXEC, sections II.B.2, IV.C.1 and IV.C.2, R112–R115).
 #pragma once
 
 #include <cstdint>

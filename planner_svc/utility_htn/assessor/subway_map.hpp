@@ -1,4 +1,4 @@
-// The science subway map: which target is sampled next (MEXEC, section II.B.2 and figure 3, R112).
+// The science subway map says which target is sampled next (MEXEC, section II.B.2 and figure 3, R112).
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ struct Stop {
   friend bool operator==(const Stop&, const Stop&) = default;
 };
 
-/// Is what is known of a target's biosignature: in the order of the states of its signature timeline.
+/// Says what is known of a target's biosignature: in the order of the states of its signature timeline.
 enum class Signature : std::uint8_t { unknown, negative, positive };
 
 /// Holds the state of all targets: signatures known, and samples planned whose signature is not known yet.

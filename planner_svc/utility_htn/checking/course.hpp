@@ -1,4 +1,4 @@
-// The value of a timeline at any time, added up anew from all impacts for every question.
+// A course is the value of a timeline at any time, added up anew from all impacts for every question.
 #pragma once
 
 #include <vector>
@@ -7,11 +7,13 @@
 
 namespace roci::planner::utility_htn::checking {
 
-/// Which values at an instant: before everything, after what ends and before what starts, after everything.
+/// Says which value at an instant is meant: before everything, after what ends and before what starts, or
+/// after everything.
 enum class Moment { before, between, after };
 
 temporal::Time end_of(const Question& question, const Step& step);
 
+/// Gives the value of one timeline over time.
 class Course {
  public:
   /// Looks at the steps of the plan, or at the committed ones alone.

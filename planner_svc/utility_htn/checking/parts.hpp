@@ -1,4 +1,4 @@
-// The parts of the check, one for each file; each adds its faults.
+// These are the parts of the check, one for each file; each adds its faults.
 #pragma once
 
 #include <set>

@@ -1,4 +1,4 @@
-// What the independent checker is asked: one version of a plan, what was there before, and what was observed. It is
+// The independent checker is asked about one version of a plan, what was there before, and what was observed. It is
 // told in types of its own, so that no mistake of the planner can hide in a shared one.
 #pragma once
 
@@ -14,24 +14,26 @@
 
 namespace roci::planner::utility_htn::checking {
 
-/// Is one primitive task in a plan.
+/// Describes one primitive task in a plan.
 struct Step {
   std::uint64_t id = 0;  ///< the same in all versions
   model::TaskIndex task = 0;
   temporal::Time start{0};
-  /// What it takes; none: what the network says. Downlinks and what is executed have one of their own.
+  /// Holds the time that it takes; none: as the network says. Downlinks and executed tasks have one of their
+  /// own.
   std::optional<temporal::Duration> duration{};
   bool committed = false;
   bool due = false;      ///< it should begin or end by now and is not known to have
   bool overdue = false;  ///< it should have before now: its times are the soonest ones
 };
 
-/// Is a requested task with all its primitive ones in order, those that are executed among them.
+/// Holds a requested task with all its primitive ones in order, those that are executed among them.
 struct Block {
   model::TaskIndex request = 0;
   std::vector<Step> steps;
 };
 
+/// Describes a downlink opportunity as the checker is told it.
 struct Window {
   std::string id;
   temporal::Time start{0};
@@ -43,6 +45,7 @@ struct Window {
   double heat_limit_s = std::numeric_limits<double>::infinity();
 };
 
+/// Describes data to be sent, and the window that the plan gives them.
 struct Product {
   std::string id;
   model::Tier tier = model::Tier::mandatory;
@@ -54,28 +57,31 @@ struct Product {
   bool reported = false;                  ///< the plan names it as left out or late, with the reason
 };
 
+/// Holds the data, the windows, and the energy limits of sols in joules.
 struct Downlinks {
   std::vector<Product> products{};
   std::vector<Window> windows{};  ///< in order of their starts
   std::map<std::uint32_t, double> sol_energy_j{};
 };
 
+/// Holds a value of a timeline that was observed.
 struct Observation {
   temporal::timelines::Index timeline = 0;
   temporal::Time sampled{0};
   double value = 0;
 };
 
+/// Holds one version of a plan, with all that it is checked against.
 struct Question {
   const model::Network& network;
   const model::Values& values;
   std::vector<Block> plan;
   std::vector<Block> before{};  ///< the version that this one follows
-  /// What runs or has succeeded of chains that were broken off: it counts on timelines,
-  /// and is no decomposition any more.
+  /// Lists what runs or has succeeded of chains that were broken off: it counts on timelines, but is no
+  /// decomposition any more.
   std::vector<Step> rests{};
   Downlinks downlinks{};
-  /// Otherwise the plan does not say what goes with which downlink, and that is not checked.
+  /// Says whether the plan tells what goes with which downlink; otherwise that is not checked.
   bool downlinks_told = true;
   std::vector<Observation> observations{};
   temporal::Time origin{0};  ///< of the plan

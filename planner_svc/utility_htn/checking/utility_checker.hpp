@@ -1,4 +1,4 @@
-// The independent checker of the utility-driven engine's plan versions, behind the seam.
+// This is the independent checker of the utility-driven engine's plan versions, behind the seam.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// A plan version as the executive is told it, taken apart for the independent checker.
+// A version is a plan version as the executive is told it, taken apart for the independent checker.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,8 @@
 
 namespace roci::planner::utility_htn::checking {
 
-/// Is what a FlexiblePlan of the utility-driven engine says; planner_svc/utility_htn/README.md has the form.
+/// Holds what a FlexiblePlan of the utility-driven engine says; planner_svc/utility_htn/README.md has the
+/// form.
 struct Version {
   std::vector<Block> blocks;          ///< those of which no link has failed
   std::set<std::uint32_t> broken;     ///< numbers of the others: what is committed of them is skipped
@@ -19,9 +20,9 @@ struct Version {
   std::set<std::uint32_t> over;       ///< numbers of those that have ended
   model::Values values;               ///< of parameters
   std::vector<Observation> internal;  ///< of timelines that nobody reports, as of the version
-  /// Of reported timelines: what a task that runs by itself has begun with, as a view of Earth, or what a command that
-  /// has ended within the last interval was to bring about. Each is expected at any time,
-  /// though something else was reported last.
+  /// Lists values of reported timelines that are expected at any time, though something else was reported last: what a
+  /// task that runs by itself has begun with, such as a view of Earth, or what a command that has ended within the
+  /// last interval was to bring about.
   std::vector<Observation> expected;
   std::vector<model::TaskIndex> closed;  ///< requests that are done or withdrawn
   std::vector<std::string> faults;       ///< of the form

@@ -1,4 +1,4 @@
-// The chains of a network as a table, and as JSON.
+// This file writes the chains of a network as a table, and as JSON.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace roci::planner::utility_htn::cli {
 
-/// Is what an author asks of one chain, with the priors of the network.
+/// Holds what an author asks of one chain, with the priors of the network.
 struct ChainRow {
   std::string batch;
   std::string name;

@@ -1,4 +1,4 @@
-// What roci-network does with a task network, apart from its command line.
+// These are the commands of roci-network, apart from its command line.
 #pragma once
 
 #include <filesystem>
@@ -8,7 +8,7 @@
 
 namespace roci::planner::utility_htn::cli {
 
-/// Are the exit codes (docs/exit-codes.md).
+/// Names the exit codes (docs/exit-codes.md).
 enum ExitCode { done = 0, faulty = 1, wrong_use = 2 };
 
 /// Takes what people and what programs read.

@@ -1,5 +1,5 @@
-// The plan that the planner would begin with, and why what is not in it is not (R119):
-// for authors, before anything flies.
+// The first plan is the one that the planner would begin with; this file also says why what is not in it is
+// not (R119), for authors, before anything flies.
 #pragma once
 
 #include <cstdint>
@@ -13,14 +13,14 @@
 
 namespace roci::planner::utility_htn::cli {
 
-/// Is what is asked: values that stand in place of priors, by parameter,
-/// and what the budget holds if that is not its first value.
+/// Says what is asked: values that stand in place of priors, by parameter, and what the budget holds if that
+/// is not its first value.
 struct WhatIf {
   std::map<std::string, double> values{};
   std::map<std::string, double> initial{};  ///< first values of timelines
 };
 
-/// Is a requested task that the first plan holds.
+/// Describes a requested task that the first plan holds.
 struct PlannedTask {
   std::string chain;
   temporal::Time start{0};
@@ -29,12 +29,13 @@ struct PlannedTask {
   double cost = 0;                 ///< from the budget
 };
 
-/// Is a requested task that it does not hold, with a sentence for each way to do it.
+/// Describes a requested task that it does not hold, with a sentence for each way to do it.
 struct UnplannedTask {
   std::string task;
   std::vector<std::string> why;
 };
 
+/// Holds what the first plan has and what it lacks.
 struct FirstPlan {
   std::vector<PlannedTask> planned;      ///< by start
   std::vector<UnplannedTask> unplanned;  ///< in the order of the network

@@ -1,22 +1,23 @@
-// roci-network: roci-network check|chains|explain|pack|unpack FILE …
+// roci-network: roci-network check|chains|explain|pack|unpack|cycle FILE …
 #include <CLI/CLI.hpp>
 #include <iostream>
 #include <string>
 #include <vector>
 
 #include "planner_svc/utility_htn/cli/commands.hpp"
+#include "planner_svc/utility_htn/cli/cycle.hpp"
 
 namespace roci::planner::utility_htn::cli {
 namespace {
 
 int run_command_line(int argc, char** argv) {
   CLI::App app(
-      "Checks and shows the task networks of utility-driven missions, and turns them into their binary form "
-      "and back");
+      "Checks and shows the task networks of utility-driven missions, turns them into their binary form and "
+      "back, and plans again what was flown with them");
   app.require_subcommand(1);
   app.footer(
       "What a network holds and how it is written: docs/network-format.md. Exit codes: 0 done, 1 the network "
-      "has errors, 2 wrong use.");
+      "has errors, or a cycle is not as it was flown, 2 wrong use.");
   std::string file, to;
   bool json = false;
   const auto command = [&](const char* name, const char* help) {
@@ -41,6 +42,13 @@ int run_command_line(int argc, char** argv) {
   pack_command->add_option("-o,--output", to, "the file to write")->required();
   CLI::App* unpack_command = command("unpack", "Writes it as YAML, in full");
   unpack_command->add_option("-o,--output", to, "the file to write; without it standard output");
+  std::uint64_t until = 0;
+  CLI::App* cycle_command = app.add_subcommand(
+      "cycle", "Plans the cycles of a flight again, alone, from the record of what its planner heard");
+  cycle_command->add_option("RECORD", file, "planner_steps/N.steps of a run folder")->required();
+  cycle_command->add_option("--until", until,
+                            "the last cycle to plan again, of those that are counted from 1");
+  cycle_command->add_flag("--json", json, "as one JSON object");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -50,6 +58,7 @@ int run_command_line(int argc, char** argv) {
   if (*check_command) return check(file, output);
   if (*chains_command) return chains(file, output);
   if (*explain_command) return explain(file, tasks, changes, output);
+  if (*cycle_command) return cycle(file, until, output);
   if (*pack_command) return pack(file, to, output);
   return unpack(file, to, output);
 }

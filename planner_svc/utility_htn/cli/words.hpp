@@ -1,4 +1,4 @@
-// How roci-network writes amounts and utilities.
+// This file writes amounts and utilities for roci-network.
 #pragma once
 
 #include <string>

@@ -1,4 +1,5 @@
-// When what a task claims, a resource that only one or a few may hold at a time, is given back or claimed again.
+// A task may claim a resource that only one or a few may hold at a time; this file says when claims are given
+// back or begin again.
 #pragma once
 
 #include <vector>

@@ -24,7 +24,7 @@ enum class Activity { commit, consolidate, schedule, repair, optimize };
 /// Returns the part's name, as above.
 const char* to_string(Activity part);
 
-/// How plans are looked for.
+/// Says how plans are looked for.
 enum class Search {
   once,     ///< to the network's bound on exploration (R92–R97)
   anytime,  ///< in passes that grow to that bound; says how much more utility there may be at most
@@ -38,10 +38,10 @@ struct Settings {
   bool downlinks = true;        ///< data without a downlink are not generated (R127); otherwise all get home
   bool schedules_again = true;  ///< also after the first time; otherwise the first plan is all there is
   Search search = Search::once;
-  /// What was observed must differ from what was foreseen by this share of the timeline's first value before
+  /// Says by which share of a timeline's first value an observation must differ from what was foreseen before
   /// the cycle optimizes anew.
   double noticeable = 0.005;
-  /// A request that failed so often is withdrawn.
+  /// Bounds how often a request may fail before it is withdrawn.
   std::uint32_t most_failures = 3;
 };
 
@@ -54,12 +54,12 @@ struct Report {
   std::vector<std::string> notes;
 };
 
-/// Is what outlives the process: with it and the blocks that are executed a cycle goes on as before.
+/// Holds what outlives the process: with it and the blocks that are executed a cycle goes on as before.
 struct Past {
   std::set<model::TaskIndex> done{};  ///< requests that need not come again
-  /// Are requests of the network that nobody asks for any more, as what failed too often.
+  /// Lists requests of the network that nobody asks for any more, as what failed too often.
   std::set<model::TaskIndex> withdrawn{};
-  /// Are templates that contingencies have requested (R69) and that are not done.
+  /// Lists templates that contingencies have requested (R69) and that are not done.
   std::set<model::TaskIndex> contingent{};
   model::Values values{};          ///< as learned
   std::vector<double> internal{};  ///< by timeline: values of those that nobody reports
@@ -70,14 +70,15 @@ struct Past {
 /// only run() changes the plan.
 class Cycle {
  public:
-  /// The network is checked. All outlive this.
+  /// Plans a network that was checked. All arguments must outlive this object.
   Cycle(const model::Network& network, const flattening::Chains& chains, const assessor::Assessor& assessor,
         const search::Scheduler& scheduler, temporal::Time origin, Settings settings = {});
 
   void observe(temporal::timelines::Index timeline, temporal::Time sampled, double value);
   /// Takes the times at which a task really began and ended (R76).
   void begun(TaskId task, temporal::Time at);
-  /// Takes that the executive tries a running task again by itself (R99): it will take its whole duration once more.
+  /// Takes in that the executive tries a running task again by itself (R99): it will take its whole duration once
+  /// more.
   void tried_again(TaskId task, temporal::Time at);
   void ended(TaskId task, temporal::Time at, bool succeeded, const std::string& cause = {});
   /// Asks for a template, or for something that was withdrawn; forgets its failures.
@@ -86,7 +87,8 @@ class Cycle {
   void withdraw(model::TaskIndex task);
   /// Replaces a parameter's value (R116, R118). Returns why not, if it is out of range.
   std::string set_value(model::ParameterIndex parameter, double value);
-  /// Lets data that exist be assessed, and data without a downlink not be planned (R115, R127). It outlives this.
+  /// Assesses data that exist, and plans no data without a downlink (R115, R127). `delivery` must outlive this
+  /// object.
   void deliver_by(delivery::Delivery& delivery) { delivery_ = &delivery; }
   /// Lets the next cycle look for a better plan, whatever it knows.
   void doubt() { to_optimize_ = true; }

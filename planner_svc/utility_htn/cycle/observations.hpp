@@ -1,5 +1,5 @@
-// What is observed of timelines, held against what was foreseen (R76, R102): when a better plan may exist, and which
-// observation stands where a command that was to change a timeline has not been confirmed.
+// Observations of timelines are compared with what was foreseen (R76, R102): they tell when a better plan may exist,
+// and which observation counts where a command that was to change a timeline has not been confirmed.
 #pragma once
 
 #include <map>
@@ -20,7 +20,7 @@ class Observations {
   Observations(const model::Network& network, double noticeable);
 
   /// Returns whether what was observed since `forget_deviations()` is so far from what was foreseen that it matters.
-  /// Of a timeline of states every difference does.
+  /// On a timeline of states every difference matters.
   bool take(temporal::timelines::Index timeline, temporal::Time sampled, double value, double foreseen);
   void forget_deviations();
 

@@ -1,4 +1,5 @@
-// What a planning cycle has placed: blocks of primitive tasks, one block for each chain that was chosen.
+// The placement of a planning cycle consists of blocks of primitive tasks, one block for each chain that was
+// chosen.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +24,8 @@ enum class Stage {
 
 constexpr bool is_over(Stage stage) { return stage == Stage::succeeded || stage == Stage::failed; }
 
-/// Is one primitive task of a block; its times are planned first, projected while it is late, and actual in the end.
+/// Holds one primitive task of a block; its times are planned first, projected while it is late, and actual in the
+/// end.
 struct Link {
   model::TaskIndex task = 0;
   temporal::Time planned{0};  ///< start that the executive is told
@@ -42,7 +44,7 @@ constexpr bool waits(const Link& link) {
 /// Returns whether the timelines hold the link.
 constexpr bool is_placed(const Link& link) { return !is_over(link.stage) && link.stage != Stage::doomed; }
 
-/// Is a chain as it was placed. Its number is never used again.
+/// Holds a chain as it was placed. Its number is never used again.
 struct Block {
   std::uint32_t number = 0;
   std::uint32_t chain = 0;  ///< index in flattening::Chains

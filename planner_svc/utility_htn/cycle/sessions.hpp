@@ -1,4 +1,5 @@
-// How long downlinks last: as long as the data take that are there, as far as the limits of energy permit (R111, R127).
+// Sessions say how long downlinks last: as long as the waiting data take, as far as the limits of energy permit (R111,
+// R127).
 #pragma once
 
 #include <vector>
@@ -13,14 +14,14 @@ namespace roci::planner::utility_htn::cycle {
 search::PlannedData data_of(const std::vector<Block>& blocks, const model::Network& network,
                             const flattening::Chains& chains, const model::Values& values);
 
-/// Knows which downlink is the next one, since that also takes data whose own has gone without them.
+/// Knows which downlink is the next one, since that also takes data whose own downlink has gone without them.
 class Sessions {
  public:
-  /// Both outlive this.
+  /// Both arguments must outlive this object.
   Sessions(const model::Network& network, const flattening::Chains& chains)
       : network_(network), chains_(chains) {}
 
-  /// Looks anew for the next downlink of what has begun, where data wait on board.
+  /// Finds anew the next downlink of what has begun, if data wait on board.
   void look(const std::vector<Block>& blocks, const delivery::Delivery& delivery);
   /// Returns what a downlink takes. Of one that is committed that is what the executive was told. Of another one of
   /// what has begun it is what the data take that wait for it, as far as its limit and that of its sol permit beside

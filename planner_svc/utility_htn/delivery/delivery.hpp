@@ -1,5 +1,5 @@
-// Joins the search, the products that exist and the Downlink Manager (MEXEC, section IV.C.2 and appendix A;
-// R110, R111, R115, R127).
+// The delivery joins the search, the products that exist and the Downlink Manager (MEXEC, section IV.C.2 and
+// appendix A; R110, R111, R115, R127).
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ namespace roci::planner::utility_htn::delivery {
 /// Only what is stored waits for a downlink.
 enum class Fate { stored, sent, received, discarded, left_behind, lost };
 
-/// Is data that was generated on board.
+/// Describes data that were generated on board.
 struct Existing {
   model::DataProduct data;
   model::TaskIndex task = 0;     ///< the primitive task that generated it
@@ -30,7 +30,7 @@ struct Existing {
   friend bool operator==(const Existing&, const Existing&) = default;
 };
 
-/// Is what one planned downlink carries.
+/// Describes what one planned downlink carries.
 struct Downlink {
   model::TaskIndex task = 0;
   temporal::Time start{0};
@@ -51,7 +51,7 @@ struct Unsent {
   friend bool operator==(const Unsent&, const Unsent&) = default;
 };
 
-/// Is data that a schedule speaks of.
+/// Describes data that a schedule mentions.
 struct Scheduled {
   bool exists = false;
   std::uint64_t bytes = 0;
@@ -59,6 +59,7 @@ struct Scheduled {
   friend bool operator==(const Scheduled&, const Scheduled&) = default;
 };
 
+/// Says which data go with which downlink, and which are left out or late.
 struct Schedule {
   std::map<std::string, Scheduled> products{};  ///< all, by id
   std::vector<Downlink> downlinks{};            ///< by start
@@ -86,18 +87,16 @@ class Delivery {
   /// The network outlives this.
   explicit Delivery(const model::Network& network) : network_(network), rules_(network) {}
 
-  /// Takes in that another network stands where `before` stood.
-  /// What a task generated that it does not have waits all the same.
+  /// Takes in that another network replaces `before`. Data of tasks that it lacks still wait.
   void replaced(const model::Network& before);
-  /// Takes in a product's newest state; returns whether anything is new. Its request is what it was as soon as nobody
+  /// Takes in a product's newest state; returns whether anything is new. Its request stays what it was once nobody
   /// knows it any more, since the plan forgets chains that have ended. A score that is negative or not finite counts as
-  /// 0, one above a million as a million.
-  /// `now` is when its owner said so: a downlink that runs has been sending the next product
-  /// since the last one was sent.
+  /// 0, one above a million as a million. `now` is when its owner said so: a downlink that runs has been sending the
+  /// next product since the last one was sent.
   bool hear(Existing product, temporal::Time now = temporal::Time{0});
-  /// Takes in what downlinks were told to send, in order: of one that runs, the first that is still on board is being
-  /// sent. Before anything was told somebody else may have told it, in the same order: then that is the first one that
-  /// a downlink of its length has room for.
+  /// Takes in what downlinks were told to send, in order: a running one is sending the first product that is still on
+  /// board. Before anything was told, another process may have told it in the same order: then a running downlink is
+  /// sending the first product for which a downlink of its length has room.
   void told(std::map<temporal::timelines::TaskId, std::vector<std::string>> products) {
     has_told_ = true;
     told_ = std::move(products);

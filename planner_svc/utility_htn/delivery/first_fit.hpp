@@ -1,5 +1,5 @@
-// The cheapest certificate that data have room: one assignment, found by first fit (R110, R127). The search asks for
-// every candidate, so most answers must come without lists being sorted again and again.
+// First fit is the cheapest certificate that data have room: one assignment (R110, R127). The search asks for every
+// candidate, so most answers must come without sorting lists again and again.
 #pragma once
 
 #include <span>

@@ -1,5 +1,5 @@
-// What a network says of its downlinks in general: the rate and the limits of energy (R111),
-// as parameters of well-known names.
+// The rules are what a network says of its downlinks in general: the rate and the limits of energy (R111), as
+// parameters of well-known names.
 #pragma once
 
 #include <cstdint>

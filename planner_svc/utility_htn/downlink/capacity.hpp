@@ -1,5 +1,5 @@
-// How many bytes one downlink can carry, and what bounds it (MEXEC, appendix A: Earth in view, energy,
-// heat, rate; R111, R126).
+// The capacity of a downlink is how many bytes it can carry, and what bounds it (MEXEC, appendix A: Earth in
+// view, energy, heat, rate; R111, R126).
 #pragma once
 
 #include <cstdint>
@@ -11,8 +11,10 @@
 
 namespace roci::planner::utility_htn::downlink {
 
+/// Names what bounds the bytes of a downlink.
 enum class Bound { earth_in_view, downlink_energy, heat, sol_energy };
 
+/// Says how much one downlink can carry, and what bounds it.
 struct Capacity {
   std::uint64_t bytes = 0;
   Bound bound = Bound::earth_in_view;  ///< the tightest
@@ -21,7 +23,7 @@ struct Capacity {
 /// Returns what a window can carry alone, rounded down to whole bytes.
 Capacity capacity(const Window& window, const Limits& limits);
 
-/// Returns the windows as bins, and the limits of those sols that have one.
+/// Holds the windows as bins, and the limits of those sols that have one, in joules.
 struct Bins {
   std::vector<Bin> bins;
   std::vector<double> sol_joules;

@@ -8,6 +8,7 @@
 
 namespace roci::planner::utility_htn::downlink {
 
+/// Holds the best greedy placement, and how much of it is proven.
 struct Certified {
   Placement placement;  ///< the best of the greedy ones
   bool best = false;    ///< no placement has a higher utility or, with the same, sends more
@@ -21,6 +22,7 @@ struct Certified {
 /// densest first is optimal).
 Certified certify(const Packing& packing);
 
+/// Says whether all items can be placed, as far as is proven.
 enum class AllFit { yes, no, unknown };
 /// Tells whether all items can be placed, with proof, or that neither is proven.
 AllFit all_fit(const Packing& packing);

@@ -16,11 +16,12 @@
 
 namespace roci::planner::utility_htn::downlink {
 
-/// Only a window that starts when it is created or later can take it.
-/// Differences of scores below kScoreStep do not count.
+/// Names a product, which only a window that starts when it is created or later can take. Differences of
+/// scores below kScoreStep do not count.
 using Product = model::DataProduct;
 
-/// Is a downlink opportunity: Earth is in view, and the uplink that belongs to it is already taken off.
+/// Describes a downlink opportunity: Earth is in view, and the uplink that belongs to it is already taken
+/// off.
 struct Window {
   std::string id;
   temporal::Time start{0};
@@ -38,9 +39,10 @@ struct Limits {
   std::map<std::uint32_t, double> sol_energy_j{};
 };
 
-/// The smallest difference of a score that counts: utilities become integers of this step (equation 6).
+/// Sets the smallest difference of a score that counts: utilities become integers of this step (equation 6).
 inline constexpr double kScoreStep = 1e-6;
 
+/// Says why a product is not sent.
 enum class Reason {
   no_window,            ///< none starts after it is created
   larger_than_windows,  ///< it fits into no window after its creation, even alone
@@ -62,7 +64,7 @@ struct Late {
   std::string why;
 };
 
-/// Is what one window carries.
+/// Says what one window carries.
 struct Load {
   std::uint64_t bytes = 0;
   temporal::Duration duration{0};
@@ -82,6 +84,7 @@ struct Proof {
   bool earliest_too = false;  ///< that no assignment of the same utility is earlier is proven, too
 };
 
+/// Says which product goes with which window, and how much of that is proven.
 struct Assignment {
   std::vector<std::optional<std::uint32_t>> window;  ///< by product
   std::vector<LeftOut> left_out;                     ///< by product

@@ -11,12 +11,14 @@
 
 namespace roci::planner::utility_htn::downlink {
 
+/// Describes an item to be packed: a product.
 struct Item {
   std::uint64_t bytes = 0;           ///< S_i
   std::uint32_t first = 0;           ///< U_ij = 1 for all bins before this one
   std::vector<std::int64_t> values;  ///< V_i by rank, the highest first (Z17)
 };
 
+/// Describes a bin: a downlink window.
 struct Bin {
   std::uint64_t capacity = 0;  ///< C_j
   std::uint64_t used = 0;      ///< taken already by what has no choice
@@ -24,6 +26,7 @@ struct Bin {
   std::optional<std::size_t> sol{};  ///< index of an energy limit
 };
 
+/// Holds a packing problem.
 struct Packing {
   std::vector<Item> items;
   std::vector<Bin> bins;
@@ -31,10 +34,10 @@ struct Packing {
   std::size_t ranks = 0;           ///< each item has so many values
 };
 
-/// Is the bin of each item (X_ij).
+/// Gives the bin of each item (X_ij).
 using Placement = std::vector<std::optional<std::uint32_t>>;
 
-/// Is what a placement is worth; the greater one is better.
+/// Says what a placement is worth; the greater one is better.
 struct Worth {
   std::vector<std::int64_t> sums;  ///< by rank
   std::int64_t sent = 0;           ///< number of items

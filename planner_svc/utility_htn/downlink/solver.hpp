@@ -1,5 +1,5 @@
-// Solves the packing problem exactly with CBC (COIN-OR branch and cut), rank by rank: what a higher rank has reached
-// becomes a constraint of the lower ones, so that no weights are needed and no gain of a lower rank can
+// This file solves the packing problem exactly with CBC (COIN-OR branch and cut), rank by rank: what a higher rank
+// has reached becomes a constraint of the lower ones, so that no weights are needed and no gain of a lower rank can
 // outweigh one of a higher (Z17).
 #pragma once
 
@@ -10,6 +10,7 @@
 
 namespace roci::planner::utility_htn::downlink {
 
+/// Holds the best placement that was found, and how much of it is proven.
 struct Solved {
   Placement placement;
   bool best = false;      ///< proven: utility by rank and the number of items sent

@@ -1,4 +1,4 @@
-// Why a product is not sent, or not in time, in words for people on the ground.
+// This file says in words for people on the ground why a product is not sent, or not in time.
 #pragma once
 
 #include <span>

@@ -11,22 +11,23 @@
 
 namespace roci::planner::utility_htn::flattening {
 
-/// Is one way to do a requested task: its primitive tasks in order. A requested primitive task is a chain of one.
+/// Describes one way to do a requested task: its primitive tasks in order. A requested primitive task is a chain
+/// of one.
 struct Chain {
   model::TaskIndex task = 0;  ///< that is requested
   std::string name;  ///< "sample_0_1/first/raw": the task and the decompositions chosen, from the top
   std::vector<model::Subtask> links;  ///< primitive tasks; the gaps count from the link before
-  /// Are those of all decompositions chosen; they hold at the first start.
+  /// Holds the conditions of all decompositions chosen; they hold at the first start.
   std::vector<temporal::timelines::Constraint> when;
 };
 
-/// Are the chains of one batch, in the order of the network.
+/// Holds the chains of each batch, in the order of the network.
 struct Chains {
   std::vector<Chain> chains;
   std::vector<std::vector<std::uint32_t>> by_batch;  ///< indices of chains
 };
 
-/// The most chains that one requested task may have, since their number is a product.
+/// Bounds the chains of one requested task, since their number is a product.
 inline constexpr std::size_t kMostChains = model::kMostChains;
 
 /// Flattens all that is requested. Throws std::invalid_argument with the task's id for one with more than kMostChains;
@@ -46,7 +47,7 @@ std::set<model::TaskIndex> templates_on_call(const model::Network& network);
 temporal::timelines::Footprint footprint(const model::Network& network, const Chain& chain, std::size_t link,
                                          const model::Values& values);
 
-/// Sums over the links (R92).
+/// Sum cost and utility over the links (R92).
 double cost(const model::Network& network, const Chain& chain, const model::Values& values);
 temporal::RankVector utility(const model::Network& network, const Chain& chain, const model::Values& values);
 

@@ -1,4 +1,4 @@
-// Which requests nothing leads to any more, whatever is planned (R112, R117).
+// This file finds the requests that nothing leads to any more, whatever is planned (R112, R117).
 #pragma once
 
 #include <set>
@@ -9,7 +9,7 @@
 
 namespace roci::planner::utility_htn::flattening {
 
-/// Is what may still come to pass.
+/// Says what may still come to pass.
 struct Prospects {
   std::span<const double> timelines_now;      ///< newest values, by timeline Index
   const std::set<model::TaskIndex>& open;     ///< requests that may be planned

@@ -1,5 +1,5 @@
-// How large a task network may be (R83): it fits into memory, together with the chains that are made of it. What is
-// larger is refused whole, and what comes in binary form before memory is taken for it.
+// These bounds say how large a task network may be (R83), so that it fits into memory together with the chains that
+// are made of it. A larger one is refused whole, in binary form before memory is taken for it.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
-// Everything that a network must fulfil before it is used (R78, R83), told at once: one plain sentence for each fault,
-// with the part of the network and what to do about it.
+// The check of a network reports at once everything that the network must fulfil before it is used (R78, R83): one
+// plain sentence for each fault, with the part of the network and the remedy.
 #pragma once
 
 #include <cstdint>
@@ -13,6 +13,7 @@ namespace roci::planner::utility_htn::model {
 /// Says which list of the network a fault lies in.
 enum class Part { network, parameter, timeline, task, site };
 
+/// Describes one fault with its place in the network and its remedy.
 struct Fault {
   Part part = Part::network;
   std::uint32_t index = 0;  ///< in the list of that part

@@ -1,4 +1,5 @@
-// What the parts of the check share: a place to put faults, and the questions that several of them ask.
+// Complaints are what the parts of the check share: a place to put faults, and the questions that several of
+// them ask.
 #pragma once
 
 #include <optional>

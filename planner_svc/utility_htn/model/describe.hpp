@@ -1,5 +1,5 @@
-// Constraints, impacts and amounts of a network in the words of its files (docs/network-format.md):
-// what is written so can be read again.
+// This file writes constraints, impacts and amounts of a network in the words of its files
+// (docs/network-format.md), so that they can be read again.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// How many chains the parents of a network have, told without making them.
+// This file counts the chains of a network's parents without making them.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,7 @@
 
 namespace roci::planner::utility_htn::model {
 
-/// Is what becomes of one task when the hierarchy is flattened. Numbers stop at SIZE_MAX.
+/// Says what becomes of one task when the hierarchy is flattened. Numbers stop at SIZE_MAX.
 struct Extent {
   std::size_t depth = 0;   ///< levels of parents, 0 of a primitive task
   std::size_t chains = 1;  ///< ways to do it

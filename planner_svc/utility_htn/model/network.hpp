@@ -19,11 +19,12 @@ namespace roci::planner::utility_htn::model {
 using TaskIndex = std::uint32_t;
 using ParameterIndex = std::uint32_t;
 
-/// Is a number that is not known for sure: a prior until it is measured on board or told by the ground (R116, R118).
+/// Describes a number that is not known for sure: a prior until it is measured on board or told by the ground (R116,
+/// R118).
 struct Parameter {
   std::string name;  ///< e.g. "excavate_s.site_0"
   double prior = 0;
-  /// What is measured or told below this or above `highest` is refused.
+  /// Bound the values that may be measured or told; others are refused.
   double lowest = -std::numeric_limits<double>::infinity();
   double highest = std::numeric_limits<double>::infinity();
   std::string source{};  ///< where the prior comes from, or why it was chosen
@@ -32,7 +33,7 @@ struct Parameter {
   friend bool operator==(const Parameter&, const Parameter&) = default;
 };
 
-/// Is a number of a task: constant + factor × parameter.
+/// Holds a number of a task: constant + factor × parameter.
 struct Amount {
   double constant = 0;
   std::optional<ParameterIndex> parameter{};
@@ -40,7 +41,7 @@ struct Amount {
   friend bool operator==(const Amount&, const Amount&) = default;
 };
 
-/// Is timelines::Impact with an amount that may depend on a parameter.
+/// Holds timelines::Impact with an amount that may depend on a parameter.
 struct Impact {
   temporal::timelines::Index timeline = 0;
   temporal::ImpactKind kind = temporal::ImpactKind::delta;
@@ -57,7 +58,7 @@ enum class Tier {
   residual,    ///< only with what is left over
 };
 
-/// Is data that a task generates.
+/// Describes data that a task generates.
 struct Product {
   std::string name;
   Tier tier = Tier::mandatory;
@@ -83,7 +84,8 @@ struct Contingency {
   friend bool operator==(const Contingency&, const Contingency&) = default;
 };
 
-/// Is one subtask of a decomposition: it follows the one before, between the two gaps from that one's end to its start.
+/// Describes one subtask of a decomposition: it follows the one before, between the two gaps from that one's end to its
+/// start.
 struct Subtask {
   TaskIndex task = 0;
   temporal::Duration shortest_gap{0};
@@ -91,8 +93,8 @@ struct Subtask {
   friend bool operator==(const Subtask&, const Subtask&) = default;
 };
 
-/// Is one way to do a parent task (R87). It can be chosen when all of `when` hold at its first start: so the phase of
-/// the mission on a timeline selects among them (figure 4).
+/// Describes one way to do a parent task (R87). It can be chosen when all of `when` hold at its first start: so the
+/// phase of the mission on a timeline selects among them (figure 4).
 struct Decomposition {
   std::string name;
   std::vector<temporal::timelines::Constraint> when{};
@@ -100,9 +102,11 @@ struct Decomposition {
   friend bool operator==(const Decomposition&, const Decomposition&) = default;
 };
 
-/// Tells which parameter is learned when a task has ended (R116): from what it took,
-/// or from a value that was computed on board (R108).
+/// Says what a parameter is learned from when a task has ended (R116): what the task took, or a value that
+/// was computed on board (R108).
 enum class Measure { duration_s, energy, power, value };
+
+/// Names a parameter that a task learns when it has ended, and from what.
 struct Learns {
   Measure measure = Measure::duration_s;
   ParameterIndex parameter = 0;
@@ -110,7 +114,8 @@ struct Learns {
   friend bool operator==(const Learns&, const Learns&) = default;
 };
 
-/// Is one task. With decompositions it is a parent and has no footprint of its own; without it is primitive.
+/// Describes one task. With decompositions it is a parent and has no footprint of its own; without it is
+/// primitive.
 struct Task {
   std::string id;    ///< unique in the network, e.g. "collect_1_2"
   std::string name;  ///< for people, e.g. "Collect Sample(1, 2)"
@@ -137,7 +142,7 @@ struct Task {
   friend bool operator==(const Task&, const Task&) = default;
 };
 
-/// Is a target that can be sampled, and its line on the subway map (figure 3, R112).
+/// Describes a target that can be sampled, and its line on the subway map (figure 3, R112).
 struct Target {
   TaskIndex task = 0;                        ///< the parent task that samples it
   temporal::timelines::Index signature = 0;  ///< state timeline: unknown, negative, positive
@@ -145,6 +150,7 @@ struct Target {
   friend bool operator==(const Target&, const Target&) = default;
 };
 
+/// Describes a site of the subway map with its targets.
 struct Site {
   std::string name;
   Amount value{};  ///< estimated by vision, in [0, 1]
@@ -152,7 +158,7 @@ struct Site {
   friend bool operator==(const Site&, const Site&) = default;
 };
 
-/// Is the rule by which samples follow each other; without sites there is none.
+/// Holds the rule by which samples follow each other; without sites there is none.
 struct SubwayMap {
   std::uint32_t most_samples = 3;  ///< at one site
   std::uint32_t rank = 0;          ///< of the utility, at which the map is enforced (R114)
@@ -160,7 +166,7 @@ struct SubwayMap {
   friend bool operator==(const SubwayMap&, const SubwayMap&) = default;
 };
 
-/// Are the timing windows of the planning cycle (R77–R81).
+/// Holds the timing windows of the planning cycle (R77–R81).
 struct CycleWindows {
   temporal::Duration process_interval{0};
   temporal::Duration worst_cycle{0};    ///< as measured; the interval is longer
@@ -170,7 +176,7 @@ struct CycleWindows {
   friend bool operator==(const CycleWindows&, const CycleWindows&) = default;
 };
 
-/// Is a whole network.
+/// Holds a whole network.
 struct Network {
   std::string name;
   std::uint64_t version = 0;
@@ -186,8 +192,8 @@ struct Network {
   friend bool operator==(const Network&, const Network&) = default;
 };
 
-/// Are the current values of all parameters, by ParameterIndex;
-/// those of a network that has learned nothing are its priors.
+/// Holds the current values of all parameters, by ParameterIndex; those of a network that has learned nothing
+/// are its priors.
 using Values = std::vector<double>;
 Values priors(const Network& network);
 

@@ -1,6 +1,6 @@
-// The fields of a network in the order of its binary form, said once for writing and reading. An archive has Of<T>
-// (const T& or T&) and takes numbers, texts, flags, enumerators, times, lists with their greatest length,
-// and what may be missing.
+// This file lists the fields of a network in the order of its binary form, once for writing and reading. An
+// archive has Of<T> (const T& or T&) and takes numbers, texts, flags, enumerators, times, lists with their
+// greatest length, and what may be missing.
 #pragma once
 
 #include "planner_svc/utility_htn/model/bounds.hpp"

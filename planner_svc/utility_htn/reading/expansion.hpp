@@ -1,4 +1,5 @@
-// One entry of a network file for many: `for: {site: [0, 1, 2], target: targets}` repeats it for each combination.
+// One entry of a network file can stand for many: `for: {site: [0, 1, 2], target: targets}` repeats it for each
+// combination.
 #pragma once
 
 #include <cstddef>
@@ -23,10 +24,10 @@ class ReadingAborted : public std::exception {};
 /// Repeats entries, at most so many in one file that memory is safe.
 class Expansion {
  public:
-  /// So many faults of a file are noted.
+  /// Bounds the faults of a file that are noted.
   static constexpr std::size_t kMostFindings = 100;
 
-  /// `findings`: where faults are noted; `unknown`: where names of sets go that there are not. Both outlive this.
+  /// Notes faults in `findings`, and names of missing sets in `unknown`. Both must outlive this object.
   Expansion(Sets sets, mission::Findings& findings, UnknownNames& unknown)
       : sets_(std::move(sets)), findings_(&findings), unknown_(&unknown) {}
 

@@ -1,4 +1,5 @@
-// The small languages inside of a network file: sums for numbers, and comparisons for constraints.
+// This file reads the small languages inside of a network file: sums for numbers, and comparisons for
+// constraints.
 #pragma once
 
 #include <string>
@@ -7,7 +8,7 @@
 
 namespace roci::planner::utility_htn::reading {
 
-/// Is a sum of products with at most one name in it: constant + factor × name.
+/// Holds a sum of products with at most one name in it: constant + factor × name.
 struct Expression {
   double constant = 0;
   double factor = 0;
@@ -19,8 +20,8 @@ struct Expression {
 /// so a difference has spaces round it.
 Expression parse_expression(std::string_view text);
 
-/// Is "TIMELINE = WORD", "TIMELINE != WORD", "TIMELINE in WORD, WORD", "TIMELINE >= NUMBER", "TIMELINE <= NUMBER",
-/// "TIMELINE = NUMBER" or "TIMELINE in NUMBER .. NUMBER", taken apart.
+/// Takes apart "TIMELINE = WORD", "TIMELINE != WORD", "TIMELINE in WORD, WORD", "TIMELINE >= NUMBER", "TIMELINE <=
+/// NUMBER", "TIMELINE = NUMBER" or "TIMELINE in NUMBER .. NUMBER", taken apart.
 struct Comparison {
   std::string timeline;
   std::string relation;                 ///< "=", "!=", ">=", "<=", "in"

@@ -1,4 +1,4 @@
-// A network from a file of either form, checked: what everybody calls who wants to use one.
+// This file loads a checked network from a file of either form: everybody who wants to use one calls it.
 #pragma once
 
 #include <filesystem>

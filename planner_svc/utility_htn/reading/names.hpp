@@ -1,4 +1,4 @@
-// The names of a network while it is read: what refers to what.
+// This file keeps the names of a network while it is read.
 #pragma once
 
 #include <cstdint>
@@ -24,9 +24,9 @@ class Names {
 
   /// Adds a name with the next number; fails where it stands already, with the place of the other.
   void add(const std::string& name, const Source& source);
-  /// What stands behind this name has a fault of its own: index() fails for it without a finding.
+  /// Notes that the definition behind this name is faulty: index() fails for it without a finding.
   void mark_faulty(const std::string& name) { faulty_.insert(name); }
-  /// Some names could not be added, for faults that were told.
+  /// Notes that some names could not be added, for faults that were reported.
   void mark_incomplete() const { unknown_->hide(kind_); }
   /// Returns the number of a name; fails with the nearest known one, which is told once for each name.
   std::uint32_t index(std::string_view name, const Source& source) const;

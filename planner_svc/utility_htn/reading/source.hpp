@@ -1,4 +1,5 @@
-// An entry of a network file together with the words that stand for others in it: "{site}" in every text and key.
+// A source is an entry of a network file together with the words that stand for others in it: "{site}" in every
+// text and key.
 #pragma once
 
 #include <functional>
@@ -18,7 +19,7 @@ namespace roci::planner::utility_htn::reading {
 /// Holds what each word in braces stands for.
 using Bindings = std::map<std::string, std::string, std::less<>>;
 
-/// Is mission::Entry, read with bindings; faults are those of Entry, with their places.
+/// Reads a mission::Entry with bindings; faults are those of Entry, with their places.
 class Source {
  public:
   explicit Source(mission::Entry entry, std::shared_ptr<const Bindings> bindings = nullptr);

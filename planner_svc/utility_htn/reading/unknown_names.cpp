@@ -32,9 +32,10 @@ void UnknownNames::fail(Unknown unknown, const Source& source) {
   const std::string place = source.entry().place();
   const auto [known, is_new] = known_.try_emplace({unknown.kind, unknown.name}, all_.size());
   if (is_new) all_.push_back({std::move(unknown), {}});
-  Standing& standing = all_[known->second];
-  if (std::ranges::find(standing.places, place) == standing.places.end()) standing.places.push_back(place);
-  throw ToldError(place + ": " + standing.unknown.what + "; " + standing.unknown.remedy);
+  Occurrences& occurrences = all_[known->second];
+  if (std::ranges::find(occurrences.places, place) == occurrences.places.end())
+    occurrences.places.push_back(place);
+  throw ToldError(place + ": " + occurrences.unknown.what + "; " + occurrences.unknown.remedy);
 }
 
 void UnknownNames::fail_again(const Source& source) {
@@ -44,16 +45,16 @@ void UnknownNames::fail_again(const Source& source) {
 
 void UnknownNames::report(mission::Findings& findings, std::size_t most) const {
   std::set<std::string> told;
-  for (const Standing& standing : all_) {
-    if (hidden_.contains(standing.unknown.kind)) continue;
+  for (const Occurrences& occurrences : all_) {
+    if (hidden_.contains(occurrences.unknown.kind)) continue;
     std::vector<Finding> places;
-    for (const std::string& place : standing.places)
+    for (const std::string& place : occurrences.places)
       if (told.insert(place).second) places.push_back(mission::finding_of(place + ": ."));
     if (places.empty() || findings.errors() >= most) continue;
     std::ranges::sort(places, {}, [](const Finding& at) { return std::tie(at.file, at.line, at.column); });
     Finding finding = places.front();
-    finding.what = standing.unknown.what;
-    finding.remedy = standing.unknown.remedy;
+    finding.what = occurrences.unknown.what;
+    finding.remedy = occurrences.unknown.remedy;
     places.erase(places.begin());
     if (!places.empty())
       finding.remedy += std::string("; it stands in line") + (places.size() > 1 ? "s " : " ") +

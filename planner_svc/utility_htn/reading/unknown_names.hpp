@@ -1,5 +1,6 @@
-// Names that nobody has declared. One slip in a declaration leaves every use of it unknown; so each name is told once,
-// with all the places where it stands, and none where a declaration that could not be read may have been it.
+// Unknown names are those that nobody has declared. One slip in a declaration leaves every use of it unknown; so each
+// name is reported once, with all its places, and not at all where a declaration that could not be read may have been
+// its own.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +15,7 @@
 
 namespace roci::planner::utility_htn::reading {
 
-/// Collects them while a file is read, and tells them in the end.
+/// Collects unknown names while a file is read, and reports them in the end.
 class UnknownNames {
  public:
   /// Says what is wrong with a name: `what` and `remedy` are told.
@@ -26,22 +27,24 @@ class UnknownNames {
   };
   /// Notes that the name stands here, and throws mission::ToldError.
   [[noreturn]] void fail(Unknown unknown, const Source& source);
-  /// The same for a name whose declaration has a fault of its own, which was told there.
+  /// Does the same for a name whose declaration has a fault of its own, which was reported there.
   [[noreturn]] void fail_again(const Source& source);
-  /// Of this kind some declarations are missing, for faults that were told: no name of it counts as unknown.
+  /// Lets no name of this kind count as unknown, since some declarations are missing for faults that were
+  /// reported.
   void hide(const std::string& kind) { hidden_.insert(kind); }
   /// Returns how often something failed.
   std::size_t failures() const { return failures_; }
 
-  /// Notes them, `most` at most. No two have the same place: repetitions of an entry have the same fault.
+  /// Notes the names, at most `most` of them. No two have the same place, since repetitions of an entry have
+  /// the same fault.
   void report(mission::Findings& findings, std::size_t most) const;
 
  private:
-  struct Standing {
+  struct Occurrences {
     Unknown unknown;
     std::vector<std::string> places;
   };
-  std::vector<Standing> all_;
+  std::vector<Occurrences> all_;
   std::map<std::pair<std::string, std::string>, std::size_t> known_;  // by kind and name
   std::set<std::string> hidden_;
   std::size_t failures_ = 0;

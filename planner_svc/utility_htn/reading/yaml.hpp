@@ -13,12 +13,13 @@
 
 namespace roci::planner::utility_htn::reading {
 
-/// The version of the form that is written, and the newest that is read (docs/formats.md).
+/// Numbers the version of the form that is written, and the newest that is read (docs/formats.md).
 inline constexpr int kYamlFormat = 1;
 
 /// Tells where the parts of a network stand in its files: "file:line:column".
 using Places = std::map<std::pair<model::Part, std::uint32_t>, std::string>;
 
+/// Holds a network that was read, and where its parts stand.
 struct Read {
   std::optional<model::Network> network;  ///< none: some finding is an error
   Places places{};

@@ -1,4 +1,4 @@
-// One task of a network file.
+// This file reads one task of a network file.
 #pragma once
 
 #include "planner_svc/utility_htn/reading/expansion.hpp"

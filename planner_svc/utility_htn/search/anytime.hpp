@@ -1,4 +1,4 @@
-// A search that gives a plan early and better ones later, and says how far from the best possible it may be.
+// This search gives a plan early and better ones later, and says how far from the best possible it may be.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace roci::planner::utility_htn::search {
 
-/// Is the best plan so far.
+/// Holds the best plan so far.
 struct Progress {
   Outcome outcome;
   temporal::RankVector bound{};  ///< no plan has more (see bound.hpp)

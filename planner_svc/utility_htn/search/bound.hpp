@@ -1,4 +1,4 @@
-// What no plan can exceed.
+// The bound is what no plan can exceed.
 #pragma once
 
 #include "core/temporal/rank_vector.hpp"

@@ -1,4 +1,5 @@
-// What one search knows of each chain: computed once, since values do not change within it.
+// The chain table is what one search knows of each chain: it is computed once, since values do not change
+// within a search.
 #pragma once
 
 #include <cstdint>
@@ -35,9 +36,9 @@ class ChainTable {
   std::span<const Link> links(std::uint32_t index);
   /// Returns the prediction of a chain after what is planned, rounded.
   temporal::RankVector predicted(std::uint32_t index, std::span<const std::uint32_t> planned) const;
-  /// Takes what forecast() follows: chains by start.
+  /// Sets what forecast() follows: chains by start.
   void follow(std::span<const std::uint32_t> planned) { forecast_->plan(planned); }
-  /// Takes one more, which starts last.
+  /// Adds one more chain, which starts last.
   void follow_next(std::uint32_t index) { forecast_->plan_next(index); }
   /// Returns predicted() after what is followed, or for what that refuses perhaps something else that is refused.
   temporal::RankVector forecast(std::uint32_t index) const;

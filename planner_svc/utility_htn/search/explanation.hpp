@@ -1,4 +1,4 @@
-// Why a chain is not in a plan (R119).
+// An explanation says why a chain is not in a plan (R119).
 #pragma once
 
 #include <cstdint>
@@ -8,6 +8,7 @@
 
 namespace roci::planner::utility_htn::search {
 
+/// Names the reasons why a chain is not in a plan, in the order in which they are looked for.
 enum class WhyNot {
   planned,         ///< it is in the plan, or committed
   closed,          ///< its request is done, failed or withdrawn
@@ -21,6 +22,7 @@ enum class WhyNot {
   not_tried,       ///< it would fit: the search ended before it, or the batch of the chain came first
 };
 
+/// Holds the reason, and a sentence for people.
 struct Explanation {
   WhyNot reason = WhyNot::not_tried;
   std::string text;  ///< one sentence for people, which names tasks, timelines, times and amounts

@@ -1,4 +1,4 @@
-// The exploration of one batch (MEXEC, section III.A, algorithm 1).
+// This is the exploration of one batch (MEXEC, section III.A, algorithm 1).
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,5 @@
-// Partial plans as compact nodes: each holds one chain with its starts and the plan that it extends.
+// The node store keeps partial plans as compact nodes: each holds one chain with its starts and the plan that
+// it extends.
 #pragma once
 
 #include <cstddef>
@@ -14,14 +15,14 @@ namespace roci::planner::utility_htn::search {
 
 using NodeId = std::uint32_t;
 
-/// Is a chain that a node may be extended with, worth what it is worth there.
+/// Holds a chain that a node may be extended with, and what it is worth there.
 struct Prospect {
   std::uint32_t chain = 0;
   temporal::RankVector utility{};
   temporal::RankVector ratio{};
 };
 
-/// Is a partial plan: its parent's, and one chain more.
+/// Holds a partial plan: its parent's, and one chain more.
 struct Node {
   NodeId parent = 0;
   std::uint32_t depth = 0;
@@ -65,7 +66,7 @@ class NodeStore {
 
   std::vector<Placed> path(NodeId id) const;
   std::size_t bytes() const;
-  /// Is told what a node's prospects take.
+  /// Takes in what a node's prospects take.
   void account(const Node& node);
 
  private:

@@ -1,4 +1,4 @@
-// Plans that are judged by what is left of them when tasks need more or less energy than predicted.
+// Robust plans are judged by what is left of them when tasks need more or less energy than predicted.
 #pragma once
 
 #include <cstdint>
@@ -16,12 +16,13 @@ enum class Judgement {
   mean,   ///< their mean, rank by rank
 };
 
+/// Says under which energy costs candidates are scored, and which score counts.
 struct RobustSettings {
   std::vector<double> factors{1.1, 1.0, 0.9};  ///< by which each task's cost is multiplied; above 0
   Judgement judgement = Judgement::worst;
 };
 
-/// Is a plan with its score under each factor.
+/// Holds a plan with its score under each factor.
 struct Candidate {
   double made_for = 1;  ///< factor that it was planned for
   Plan plan;
@@ -29,6 +30,7 @@ struct Candidate {
   temporal::RankVector judged{};
 };
 
+/// Holds the chosen plan, and all candidates with their scores.
 struct RobustOutcome {
   Outcome outcome;  ///< the chosen one
   std::size_t chosen = 0;

@@ -14,7 +14,7 @@
 
 namespace roci::planner::utility_htn::search {
 
-/// Is one task of a chain as a scheduler sees it.
+/// Describes one task of a chain as a scheduler sees it.
 struct Link {
   temporal::timelines::TaskId id = 0;
   temporal::timelines::Footprint footprint{};
@@ -35,7 +35,8 @@ class Scheduler {
       std::span<const Link> links, temporal::timelines::Timelines& timelines) const = 0;
 };
 
-/// How often EarliestScheduler moves an earlier link to its next valid interval, for a link that has no place at all.
+/// Bounds how often EarliestScheduler moves an earlier link to its next valid interval, for a link that has no place
+/// at all.
 inline constexpr std::size_t kMostBacktracks = 8;
 
 /// Starts each link as early as it can. Where a link would have to wait longer than its longest gap, the one before is

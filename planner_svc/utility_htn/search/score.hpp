@@ -1,4 +1,4 @@
-// Sums and ratios of utilities by rank.
+// This file has sums and ratios of utilities by rank.
 #pragma once
 
 #include "core/temporal/rank_vector.hpp"

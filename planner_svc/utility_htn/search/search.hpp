@@ -1,4 +1,4 @@
-// The utility-maximizing search over partial plans (MEXEC, section III.A and algorithm 1, R93–R97,
+// This is the utility-maximizing search over partial plans (MEXEC, section III.A and algorithm 1, R93–R97,
 // with the readings Z7, Z8 and Z12).
 #pragma once
 
@@ -20,14 +20,14 @@
 
 namespace roci::planner::utility_htn::search {
 
-/// Is a chain in a plan, with the start of each of its links.
+/// Holds a chain in a plan, with the start of each of its links.
 struct Placed {
   std::uint32_t chain = 0;
   std::vector<temporal::Time> starts{};
   friend bool operator==(const Placed&, const Placed&) = default;
 };
 
-/// Is a placed task that sends data (Task::downlinks).
+/// Describes a placed task that sends data (Task::downlinks).
 struct PlannedDownlink {
   model::TaskIndex task = 0;
   temporal::Time start{0};
@@ -35,7 +35,7 @@ struct PlannedDownlink {
   temporal::timelines::TaskId id = 0;  ///< in a plan that runs: the number under which timelines know it
 };
 
-/// Is what a partial plan would generate and send. What is committed comes first in both lists.
+/// Says what a partial plan would generate and send. What is committed comes first in both lists.
 struct PlannedData {
   std::vector<model::DataProduct> products{};
   std::vector<PlannedDownlink> downlinks{};
@@ -54,10 +54,10 @@ using DownlinkQuestion = std::function<bool(const PlannedData&)>;
 /// sol has a limit of its own (R111); none: at no other time.
 using LaterDownlinks = std::function<std::optional<temporal::Time>(const PlannedData&)>;
 
-/// So many sols are tried for the downlinks of one chain.
+/// Bounds the sols that are tried for the downlinks of one chain.
 inline constexpr int kMostSols = 4;
 
-/// Is what is to be planned. All that it refers to outlives it.
+/// Says what is to be planned. All that it refers to outlives it.
 struct Problem {
   const model::Network& network;
   const model::Values& values;
@@ -72,7 +72,7 @@ struct Problem {
   std::span<const double> timelines_now{};  ///< newest values, by timeline Index; for the Assessor
   std::span<const assessor::ExistingProduct> products{};
   std::vector<Placed> committed{};  ///< chains that are placed in `anchored`, begun or not
-  /// Is what `committed` generates and sends at its real times; none: as the network says.
+  /// Says what `committed` generates and sends at its real times; none: as the network says.
   std::optional<PlannedData> standing{};
   std::vector<model::TaskIndex> closed{};    ///< requests that are done, failed for good or withdrawn
   temporal::timelines::TaskId first_id = 0;  ///< see task_id()
@@ -86,7 +86,7 @@ constexpr temporal::timelines::TaskId task_id(std::uint32_t chain, std::size_t l
   return (temporal::timelines::TaskId{chain} << 16U) | link;
 }
 
-/// Is a plan: chains by start of their first links, what is committed not among them.
+/// Holds a plan: chains by start of their first links, what is committed not among them.
 struct Plan {
   std::vector<Placed> placed{};
   temporal::RankVector utility{};  ///< sum, each chain in the context of those that start before it
@@ -96,7 +96,7 @@ struct Plan {
 
 /// Counts what a search did.
 struct Statistics {
-  /// Pairs of the empty plan and a chain in the queues at the beginning (R93).
+  /// Counts the pairs of the empty plan and a chain in the queues at the beginning (R93).
   std::uint64_t first_pairs = 0;
   std::uint64_t entries = 0;           ///< pairs taken from the queues
   std::uint64_t nodes = 0;             ///< partial plans, the first one of each batch among them
@@ -107,7 +107,7 @@ struct Statistics {
   std::size_t bytes = 0;               ///< of the largest batch: nodes, queue and what recognises duplicates
 };
 
-/// Is what a search found.
+/// Holds what a search found.
 struct Outcome {
   Plan plan;
   bool complete = false;  ///< every queue ran empty: no order of adding chains gives a better plan
@@ -115,7 +115,8 @@ struct Outcome {
   Statistics statistics{};
 };
 
-/// The most bytes that the nodes of one batch may take. A search that reaches it ends as at its exploration bound.
+/// Bounds the bytes that the nodes of one batch may take. A search that reaches it ends as at its exploration
+/// bound.
 inline constexpr std::size_t kMostNodeBytes = std::size_t{24} << 20U;
 
 /// Plans: first the fixed requests at their times, then batch by batch, each held fixed for the next (R97). Within a

@@ -32,7 +32,7 @@ double given_failure(double joint, const FailureProbabilities& probabilities);
 /// the lists differ in length.
 double utility_per_cost(std::span<const double> utilities, std::span<const double> costs);
 
-/// Is a plan that was made without failures in mind.
+/// Describes a plan that was made without failures in mind.
 struct PlanFigures {
   double budget = 0;            ///< b
   double tasks = 0;             ///< n
@@ -40,13 +40,13 @@ struct PlanFigures {
   double cost_per_task = 0;     ///< c_avg
 };
 
-/// Is what resolving one failure takes from the budget; flexible execution is free.
+/// Says what resolving one failure takes from the budget; flexible execution is free.
 struct RecoveryCosts {
   double ground = 0;      ///< c_g
   double replanning = 0;  ///< c_r
 };
 
-/// Is utility that is found on the way, of which only replanning can make use.
+/// Describes utility that is found on the way, of which only replanning can make use.
 struct Discoveries {
   double count = 0;  ///< d: at most so many, since each needs a task's energy (Z16); see most_discoveries()
   double utility_each = 0;  ///< u_d

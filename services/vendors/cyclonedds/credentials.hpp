@@ -1,4 +1,4 @@
-// The credentials of a participant in the terms of Cyclone DDS: properties of its QoS, so that a secure run keeps the
+// The credentials of a participant become properties of its QoS in Cyclone DDS, so that a secure run keeps the
 // configuration of its domain as it is.
 #pragma once
 
@@ -6,7 +6,8 @@
 
 namespace roci::services::vendors::cyclonedds {
 
-/// Throws TransportError if the vendor's plug-ins for DDS Security are not installed.
+/// Adds the credentials to a QoS. Throws TransportError if the vendor's plug-ins for DDS Security are not
+/// installed.
 void add_credentials(const transport::Credentials&, dds_qos_t*);
 
 }  // namespace roci::services::vendors::cyclonedds

@@ -1,4 +1,4 @@
-// Cyclone DDS configures a domain, not a participant: the domains of this process.
+// Cyclone DDS configures a domain, not a participant; these are the domains of this process.
 #pragma once
 
 extern "C" {
@@ -13,12 +13,14 @@ extern "C" {
 
 namespace roci::services::vendors::cyclonedds {
 
-/// The XML that our settings come to: UDP unicast on options.address alone.
+/// Returns our settings as XML: UDP unicast on options.address alone.
 std::string configuration(const transport::TransportOptions&);
 
+/// Holds a configured domain of this process, with the guard before it.
 class Domain {
  public:
-  /// `config`: XML or the path of a file with it; what of `options` it does not say is for the guard.
+  /// Opens a domain with `config`, XML or the path of a file with it; the guard gets the part of `options`
+  /// that `config` cannot say.
   Domain(const transport::TransportOptions& options, std::string config);
   ~Domain();
   Domain(const Domain&) = delete;
@@ -26,7 +28,7 @@ class Domain {
 
   const std::string& config() const { return config_; }
   const guard::Guard& guard() const { return *guard_; }
-  /// Whether its participants have credentials: one guard stands before all of them.
+  /// Returns whether its participants have credentials: one guard stands before all of them.
   bool secure() const { return secure_; }
 
  private:
@@ -36,8 +38,8 @@ class Domain {
   const dds_entity_t handle_;
 };
 
-/// Shared by the participants of this process that are in the same domain; they must agree on its
-/// configuration. Throws TransportError.
+/// Returns the domain that the participants of this process share; they must agree on its configuration.
+/// Throws TransportError.
 std::shared_ptr<Domain> join_domain(const transport::TransportOptions&);
 
 }  // namespace roci::services::vendors::cyclonedds

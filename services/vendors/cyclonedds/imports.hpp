@@ -1,7 +1,7 @@
-// Puts functions of ours in the place of those that a loaded library has imported.
+// This file replaces functions that a loaded library has imported by ours.
 //
-// The seam for Cyclone DDS, which has no transport that could be chained: its two calls into the C library that matter
-// here go through its table of imports. Opening the plug-in with RTLD_DEEPBIND would bind them to it as well, but
+// It is the seam for Cyclone DDS, which has no transport that could be chained: its two relevant calls into the C
+// library go through its table of imports. Opening the plug-in with RTLD_DEEPBIND would bind them to it as well, but
 // then the plug-in and Cyclone DDS see another std::cerr than the program (which has a copy of its own, by copy
 // relocation, while the library's stays unconstructed: the first line logged is a crash), and libfaketime and
 // sanitizers no longer stand before them. The table touches nothing else.
@@ -11,8 +11,8 @@
 
 namespace roci::services::vendors::cyclonedds {
 
-/// From now on the library that `inside` points into calls `replacement` where it called the imported `function`; what
-/// it called so far is returned. Null if the library imports no such function, or if its table cannot be written. No
+/// Lets the library that `inside` points into call `replacement` instead of the imported `function` from now on.
+/// Returns what it called so far, or null if the library imports no such function or its table cannot be written. No
 /// thread may be in that library meanwhile.
 void* replace_import(const void* inside, std::string_view function, void* replacement);
 

@@ -1,4 +1,5 @@
-// The participants that Cyclone DDS has discovered, with what they announce: its built-in topic DCPSParticipant.
+// Cyclone DDS tells of the participants that it has discovered, and of what they announce, by its built-in topic
+// DCPSParticipant.
 #pragma once
 
 extern "C" {
@@ -12,7 +13,7 @@ extern "C" {
 
 namespace roci::services::vendors::cyclonedds {
 
-/// Any thread may ask.
+/// Finds discovered participants; any thread may ask.
 class Participants {
  public:
   explicit Participants(dds_entity_t participant);
@@ -20,8 +21,8 @@ class Participants {
   Participants(const Participants&) = delete;
   Participants& operator=(const Participants&) = delete;
 
-  /// Reads what is new in the built-in topic when it does not know the participant yet: the vendor writes that before
-  /// it makes the endpoints of the participant known.
+  /// Finds a participant. One that is not known yet is looked for in the built-in topic, which the vendor writes
+  /// before it makes the endpoints of the participant known.
   std::optional<transport::Participant> find(const transport::Guid&);
 
  private:

@@ -1,4 +1,4 @@
-// A reader of Cyclone DDS: serialized samples come in, and ends of instances with their keys.
+// This is a reader of Cyclone DDS.
 #pragma once
 
 #include <atomic>
@@ -11,6 +11,7 @@
 
 namespace roci::services::vendors::cyclonedds {
 
+/// Takes serialized samples in, and ends of instances with their keys.
 class CycloneReader : public transport::Reader {
  public:
   CycloneReader(dds_entity_t subscriber, const TopicHandle&, const transport::EndpointDescription&,

@@ -1,4 +1,4 @@
-// A writer of Cyclone DDS: serialized samples go out, and finished instances are forgotten.
+// This is a writer of Cyclone DDS.
 #pragma once
 
 #include <atomic>
@@ -9,11 +9,13 @@
 
 namespace roci::services::vendors::cyclonedds {
 
+/// Holds a topic of the vendor with its type.
 struct TopicHandle {
   dds_entity_t topic = 0;
   const Sertype* type = nullptr;  ///< owned by the vendor as long as the topic lives
 };
 
+/// Sends serialized samples, and forgets finished instances.
 class CycloneWriter : public transport::Writer, public transport::ForgetsInstances {
  public:
   CycloneWriter(dds_entity_t publisher, const TopicHandle&, const transport::EndpointDescription&,

@@ -1,4 +1,4 @@
-// A Fast DDS type whose samples are serialized already: it carries the bytes of any type of ours.
+// This is a Fast DDS type whose samples are serialized already: it carries the bytes of any type of ours.
 #pragma once
 
 #include <array>
@@ -12,18 +12,19 @@ namespace roci::services::vendors::fastdds {
 
 using KeyHash = std::array<std::uint8_t, 16>;
 
-/// What the vendor's `void* data` points to. A writer lends the bytes, a reader's sample owns them.
+/// Holds what the vendor's `void* data` points to. A writer lends the bytes, a reader's sample owns them.
 struct Bytes {
   std::span<const std::uint8_t> view;
   transport::Payload owned;
   std::optional<KeyHash> key_hash;  ///< if known already; the vendor asks for it up to three times per write
 };
 
-/// The key hash of a whole or key-only payload: the big-endian key, or MD5 of it where a key of the type may
-/// be longer than the hash. Nothing if the payload is malformed.
+/// Returns the key hash of a whole or key-only payload: the big-endian key, or its MD5 where a key of the
+/// type may be longer than the hash. Returns nothing if the payload is malformed.
 std::optional<KeyHash> key_hash_of(const transport::TypeDescription&, std::span<const std::uint8_t> payload,
                                    bool force_md5);
 
+/// Tells Fast DDS how to copy samples and find their keys.
 class BytesType : public eprosima::fastdds::dds::TopicDataType {
  public:
   explicit BytesType(const transport::TypeDescription&);
@@ -33,8 +34,8 @@ class BytesType : public eprosima::fastdds::dds::TopicDataType {
   std::function<std::uint32_t()> getSerializedSizeProvider(void* data) override;
   void* createData() override;
   void deleteData(void* data) override;
-  /// Never fails for a keyed type: a sample whose key cannot be read is an instance by itself, of all its bytes, which
-  /// the reader refuses. The history of a reader aborts over a sample that has no instance.
+  /// Never fails for a keyed type, since the history of a reader aborts over a sample that has no instance: a sample
+  /// whose key cannot be read is an instance by itself, of all its bytes, which the reader refuses.
   bool getKey(void* data, eprosima::fastrtps::rtps::InstanceHandle_t*, bool force_md5) override;
 
  private:

@@ -1,4 +1,4 @@
-// A UDP transport of Fast DDS whose datagrams pass a guard before its parser.
+// This is a UDP transport of Fast DDS whose datagrams pass a guard before its parser.
 #pragma once
 
 #include <fastdds/rtps/transport/ChainingTransport.h>
@@ -10,7 +10,7 @@
 
 namespace roci::services::vendors::fastdds {
 
-/// `udp` with `guard` in front of it, as one of a participant's user transports.
+/// Returns `udp` with `guard` in front of it, as one of a participant's user transports.
 std::shared_ptr<eprosima::fastdds::rtps::TransportDescriptorInterface> guarded(
     std::shared_ptr<eprosima::fastdds::rtps::TransportDescriptorInterface> udp,
     std::shared_ptr<guard::Guard> guard);

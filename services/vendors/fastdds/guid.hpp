@@ -1,4 +1,4 @@
-// Fast DDS's GUIDs as the transport has them.
+// This file translates Fast DDS's GUIDs.
 #pragma once
 
 #include <fastdds/rtps/common/Guid.h>

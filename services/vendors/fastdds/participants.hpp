@@ -1,4 +1,4 @@
-// Hears of the participants that Fast DDS discovers, and keeps what they announce.
+// Fast DDS tells of the participants that it discovers by a listener.
 #pragma once
 
 #include <fastdds/dds/domain/DomainParticipantListener.hpp>
@@ -9,9 +9,10 @@
 
 namespace roci::services::vendors::fastdds {
 
+/// Keeps what discovered participants announce.
 class Participants : public eprosima::fastdds::dds::DomainParticipantListener {
  public:
-  /// `guard` is told of who is given up.
+  /// Tells `guard` of participants that the vendor gives up.
   explicit Participants(std::shared_ptr<guard::Guard> guard) : guard_(std::move(guard)) {}
   ParticipantTable table;
 

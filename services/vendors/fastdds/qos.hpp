@@ -1,4 +1,4 @@
-// Our settings in the terms of Fast DDS.
+// This file has our settings in the terms of Fast DDS.
 #pragma once
 
 #include <fastdds/dds/domain/qos/DomainParticipantQos.hpp>
@@ -11,9 +11,9 @@
 
 namespace roci::services::vendors::fastdds {
 
-/// UDP unicast on options.address alone, sent from `port`, after which the participant is named. With vendor_xml: the
-/// default participant profile of that file instead, with its built-in transports replaced by UDPv4. Datagrams pass
-/// `guard` in either case.
+/// Returns UDP unicast on options.address alone, sent from `port`, after which the participant is named, or, with
+/// vendor_xml, the default participant profile of that file with its built-in transports replaced by UDPv4. Datagrams
+/// pass `guard` in either case.
 eprosima::fastdds::dds::DomainParticipantQos participant_qos(const transport::TransportOptions&,
                                                              const std::shared_ptr<guard::Guard>& guard,
                                                              std::uint16_t port);

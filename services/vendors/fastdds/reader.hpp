@@ -1,4 +1,4 @@
-// A reader of Fast DDS: samples come in as bytes that are decoded behind it, and ends of instances with their keys.
+// This is a reader of Fast DDS.
 #pragma once
 
 #include <atomic>
@@ -14,6 +14,7 @@
 
 namespace roci::services::vendors::fastdds {
 
+/// Takes samples in as bytes, which are decoded later, and ends of instances with their keys.
 class FastReader : public transport::Reader, private eprosima::fastdds::dds::DataReaderListener {
  public:
   FastReader(eprosima::fastdds::dds::Subscriber&, eprosima::fastdds::dds::Topic&,

@@ -1,4 +1,4 @@
-/// Writes the samples of one topic with Fast DDS, as bytes that were encoded before.
+// This is a writer of Fast DDS.
 #pragma once
 
 #include <atomic>
@@ -14,6 +14,7 @@
 
 namespace roci::services::vendors::fastdds {
 
+/// Writes the samples of one topic, as bytes that were encoded before.
 class FastWriter : public transport::Writer,
                    public transport::ForgetsInstances,
                    private eprosima::fastdds::dds::DataWriterListener {

@@ -1,4 +1,4 @@
-// Numbers in a datagram, in the byte order that it declares.
+// This file reads numbers in a datagram, in the byte order that it declares.
 #pragma once
 
 #include <cstddef>
@@ -7,7 +7,7 @@
 
 namespace roci::services::vendors::guard {
 
-/// The caller has checked that what it reads lies within `bytes`.
+/// Views bytes with their byte order. The caller must have checked that what it reads lies within `bytes`.
 struct ByteView {
   std::span<const std::uint8_t> bytes;
   bool little_endian = true;
@@ -26,7 +26,7 @@ struct ByteView {
     const std::uint32_t first = u16(at), second = u16(at + 2);
     return little_endian ? first | second << 16 : first << 16 | second;
   }
-  /// RTPS writes the high half first, in either byte order (RTPS 2.3, 9.3.2).
+  /// Reads a sequence number, whose high half comes first in either byte order (RTPS 2.3, 9.3.2).
   std::int64_t sequence_number(std::size_t at) const {
     return static_cast<std::int64_t>(std::uint64_t{u32(at)} << 32 | u32(at + 4));
   }

@@ -32,7 +32,7 @@ WriterKind kind_of_writer(const ByteView& entity_id) {
 }
 
 struct Parts {
-  Verdict verdict = Verdict::pass;
+  DatagramAdmission admission = DatagramAdmission::pass;
   WriterKind writer = WriterKind::user;
   ByteView payload{};
 };
@@ -41,67 +41,68 @@ struct Parts {
 // `fixed` is the size of the fixed part.
 Parts split(const Submessage& message, std::size_t fixed, const GuidPrefix& sender) {
   const ByteView& body = message.body;
-  if (body.size() < fixed) return {Verdict::cut};
+  if (body.size() < fixed) return {DatagramAdmission::cut};
   const std::size_t offset = body.u16(2);  // counted from behind itself
-  if (offset % 4 != 0 || offset < fixed - 4 || offset > body.size() - 4) return {Verdict::cut};
-  if (body.sequence_number(12) <= 0) return {Verdict::bad_numbers};
-  Parts parts{Verdict::pass, kind_of_writer(body.part(8, 4)), body.from(4 + offset)};
+  if (offset % 4 != 0 || offset < fixed - 4 || offset > body.size() - 4) return {DatagramAdmission::cut};
+  if (body.sequence_number(12) <= 0) return {DatagramAdmission::bad_numbers};
+  Parts parts{DatagramAdmission::pass, kind_of_writer(body.part(8, 4)), body.from(4 + offset)};
   const bool inline_qos = (message.flags & kInlineQosFlag) != 0;
   if (!inline_qos) return parts;
   const bool guarded = parts.writer == WriterKind::discovery || parts.writer == WriterKind::liveliness;
   const auto list =
       examine_parameters(parts.payload, ListKind::inline_qos, guarded ? std::optional(sender) : std::nullopt);
-  if (list.verdict != Verdict::pass) return {list.verdict};
+  if (list.admission != DatagramAdmission::pass) return {list.admission};
   parts.payload = parts.payload.from(list.size);
   return parts;
 }
 
 // A parameter list behind its encapsulation header. A bare key of 16 bytes would be taken for the GUID that it holds.
-Verdict discovery_payload(const ByteView& payload, const GuidPrefix& sender) {
+DatagramAdmission discovery_payload(const ByteView& payload, const GuidPrefix& sender) {
   const bool big = payload.bytes[1] == 2, little = payload.bytes[1] == 3;
-  if (payload.bytes[0] != 0 || (!big && !little)) return Verdict::bad_parameters;
+  if (payload.bytes[0] != 0 || (!big && !little)) return DatagramAdmission::bad_parameters;
   const ByteView list{payload.bytes.subspan(4), little};
   const auto judged = examine_parameters(list, ListKind::discovery, sender);
-  if (judged.verdict != Verdict::pass) return judged.verdict;
-  return payload.size() > 16 ? Verdict::pass : Verdict::bad_parameters;
+  if (judged.admission != DatagramAdmission::pass) return judged.admission;
+  return payload.size() > 16 ? DatagramAdmission::pass : DatagramAdmission::bad_parameters;
 }
 
 // ParticipantMessageData begins with the prefix of the participant that it says is alive.
-Verdict liveliness_payload(const ByteView& payload, const GuidPrefix& sender) {
-  if (payload.size() < 4 + sender.size()) return Verdict::bad_parameters;
-  return may_speak_for(sender, payload.bytes.subspan(4)) ? Verdict::pass : Verdict::speaks_for_another;
+DatagramAdmission liveliness_payload(const ByteView& payload, const GuidPrefix& sender) {
+  if (payload.size() < 4 + sender.size()) return DatagramAdmission::bad_parameters;
+  return may_speak_for(sender, payload.bytes.subspan(4)) ? DatagramAdmission::pass
+                                                         : DatagramAdmission::speaks_for_another;
 }
 
 }  // namespace
 
-Verdict examine_data(const Submessage& message, const GuidPrefix& sender) {
+DatagramAdmission examine_data(const Submessage& message, const GuidPrefix& sender) {
   constexpr std::size_t kFixed = 20;
   const bool data = (message.flags & kDataFlag) != 0, key = (message.flags & kKeyFlag) != 0;
-  if (data && key) return Verdict::cut;
+  if (data && key) return DatagramAdmission::cut;
   const Parts parts = split(message, kFixed, sender);
-  if (parts.verdict != Verdict::pass) return parts.verdict;
-  if (!data && !key) return Verdict::pass;
-  if (parts.payload.size() < 4) return Verdict::cut;
+  if (parts.admission != DatagramAdmission::pass) return parts.admission;
+  if (!data && !key) return DatagramAdmission::pass;
+  if (parts.payload.size() < 4) return DatagramAdmission::cut;
   if (parts.writer == WriterKind::discovery) return discovery_payload(parts.payload, sender);
   if (parts.writer == WriterKind::liveliness) return liveliness_payload(parts.payload, sender);
-  return Verdict::pass;
+  return DatagramAdmission::pass;
 }
 
-Verdict examine_data_fragment(const Submessage& message, const GuidPrefix& sender) {
+DatagramAdmission examine_data_fragment(const Submessage& message, const GuidPrefix& sender) {
   constexpr std::size_t kFixed = 32;
   const Parts parts = split(message, kFixed, sender);
-  if (parts.verdict != Verdict::pass) return parts.verdict;
+  if (parts.admission != DatagramAdmission::pass) return parts.admission;
   // Discovery fits into one datagram; in pieces it could not be judged.
   if (parts.writer == WriterKind::discovery || parts.writer == WriterKind::liveliness)
-    return Verdict::bad_fragment;
+    return DatagramAdmission::bad_fragment;
   const ByteView& body = message.body;
   const std::uint64_t first = body.u32(20), count = body.u16(24), size = body.u16(26), sample = body.u32(28);
-  if (first == 0 || count == 0 || size == 0 || sample == 0) return Verdict::bad_fragment;
-  if (sample > kMaxSampleBytes) return Verdict::oversized;
+  if (first == 0 || count == 0 || size == 0 || sample == 0) return DatagramAdmission::bad_fragment;
+  if (sample > kMaxSampleBytes) return DatagramAdmission::oversized;
   const std::uint64_t begin = (first - 1) * size;
-  if (begin + (count - 1) * size >= sample) return Verdict::bad_fragment;
-  return parts.payload.size() < std::min(count * size, sample - begin) ? Verdict::bad_fragment
-                                                                       : Verdict::pass;
+  if (begin + (count - 1) * size >= sample) return DatagramAdmission::bad_fragment;
+  return parts.payload.size() < std::min(count * size, sample - begin) ? DatagramAdmission::bad_fragment
+                                                                       : DatagramAdmission::pass;
 }
 
 }  // namespace roci::services::vendors::guard

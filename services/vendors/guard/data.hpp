@@ -1,11 +1,11 @@
-// DATA and DATA_FRAG: samples, and those of discovery in particular.
+// This file examines DATA and DATA_FRAG: samples, and those of discovery in particular.
 #pragma once
 
 #include "services/vendors/guard/submessages.hpp"
 
 namespace roci::services::vendors::guard {
 
-Verdict examine_data(const Submessage&, const GuidPrefix& sender);
-Verdict examine_data_fragment(const Submessage&, const GuidPrefix& sender);
+DatagramAdmission examine_data(const Submessage&, const GuidPrefix& sender);
+DatagramAdmission examine_data_fragment(const Submessage&, const GuidPrefix& sender);
 
 }  // namespace roci::services::vendors::guard

@@ -21,7 +21,7 @@ ByteView payload_of(const Submessage& message, std::size_t fixed) {
   const bool inline_qos = (message.flags & kInlineQosFlag) != 0;
   if (inline_qos) {
     const auto list = examine_parameters(rest, ListKind::inline_qos, std::nullopt);
-    if (list.verdict != Verdict::pass) return {};
+    if (list.admission != DatagramAdmission::pass) return {};
     rest = rest.from(list.size);
   }
   if (rest.size() < 4) return {};

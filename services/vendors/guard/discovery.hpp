@@ -1,4 +1,4 @@
-// What the plain messages of a secure run say of whom: where participants are spoken to, and how handshakes go on.
+// The plain messages of a secure run say where participants are reached, and how handshakes go on.
 #pragma once
 
 #include <cstdint>
@@ -10,20 +10,20 @@
 
 namespace roci::services::vendors::guard {
 
-/// Where a participant says that it is to be spoken to.
+/// Says where a participant announces that it is reached.
 struct Announcement {
   GuidPrefix prefix{};
   std::vector<Source> reached_at;
 };
 
-/// Returns the announcement of a participant in a message that passed (examine),
-/// if it has one with unicast IPv4 locators.
+/// Returns the announcement of a participant in a message that passed examine(), if it has one with unicast
+/// IPv4 locators.
 std::optional<Announcement> announcement_in(std::span<const std::uint8_t> message);
 
-/// Is what a message of a handshake is about (DDS Security 1.1, 9.3.2.5): it begins one, or answers.
+/// Says what a message of a handshake does (DDS Security 1.1, 9.3.2.5): it begins one, or answers.
 struct HandshakePart {
   bool begins = false;
-  GuidPrefix with{};  ///< for whom it is
+  GuidPrefix with{};  ///< participant that it is for
 };
 
 /// Returns the handshakes that a message of this process is about.

@@ -39,19 +39,19 @@ Guard::Guard(Policy policy) : policy_(std::move(policy)), identities_(policy_.se
 
 std::size_t Guard::admit(std::span<std::uint8_t> datagram, const std::optional<Source>& source) {
   const std::lock_guard lock(mutex_);
-  const Verdict verdict = judge(datagram, source);
-  if (verdict == Verdict::pass && !policy_.secure) {
-    ++counts_[static_cast<std::size_t>(verdict)];
+  const DatagramAdmission admission = judge(datagram, source);
+  if (admission == DatagramAdmission::pass && !policy_.secure) {
+    ++counts_[static_cast<std::size_t>(admission)];
     return strip_vendor_submessages(datagram);
   }
-  if (verdict == Verdict::pass) {
+  if (admission == DatagramAdmission::pass) {
     const std::size_t left = admit_secure(datagram.first(strip_vendor_submessages(datagram)));
-    ++counts_[static_cast<std::size_t>(left > 0 ? Verdict::pass : Verdict::plain)];
+    ++counts_[static_cast<std::size_t>(left > 0 ? DatagramAdmission::pass : DatagramAdmission::plain)];
     return left;
   }
-  ++counts_[static_cast<std::size_t>(verdict)];
-  last_sources_[static_cast<std::size_t>(verdict)] = source;
-  report(verdict, source);
+  ++counts_[static_cast<std::size_t>(admission)];
+  last_sources_[static_cast<std::size_t>(admission)] = source;
+  report(admission, source);
   return 0;
 }
 
@@ -93,34 +93,35 @@ void Guard::tell_of_parting() {
 }
 
 // The sender comes first: of a stranger nothing is read.
-Verdict Guard::judge(std::span<const std::uint8_t> datagram, const std::optional<Source>& source) {
+DatagramAdmission Guard::judge(std::span<const std::uint8_t> datagram, const std::optional<Source>& source) {
   const auto& peers = policy_.peers;
   if (!peers.empty() && (!source || std::find(peers.begin(), peers.end(), source->address) == peers.end()))
-    return Verdict::stranger;
-  const Verdict verdict = examine(datagram);
-  if (verdict != Verdict::pass || !source) return verdict;
+    return DatagramAdmission::stranger;
+  const DatagramAdmission admission = examine(datagram);
+  if (admission != DatagramAdmission::pass || !source) return admission;
   return identities_.claim(sender_of(datagram), *source, std::chrono::steady_clock::now());
 }
 
 // The first at once, then one line for all of ten seconds.
-void Guard::report(Verdict verdict, const std::optional<Source>& source) {
+void Guard::report(DatagramAdmission admission, const std::optional<Source>& source) {
   const auto now = std::chrono::steady_clock::now();
   if (last_report_ && now - *last_report_ < kBetweenReports) return;
   last_report_ = now;
   std::string text;
-  for (std::size_t i = 1; i < kVerdicts; ++i) {
+  for (std::size_t i = 1; i < kAdmissions; ++i) {
     if (counts_[i] == reported_[i]) continue;
     text += (text.empty() ? "" : ", ") + std::to_string(counts_[i] - reported_[i]) + " " +
-            std::string(kVerdictNames[i]);
+            std::string(kAdmissionNames[i]);
   }
   reported_ = counts_;
   // Plug-ins log by themselves: the log of services belongs to the program.
   text = "datagrams refused before DDS reads them: " + text + "; the last one, " +
-         std::string(kVerdictNames[static_cast<std::size_t>(verdict)]) + ", from " + to_text(source) + "\n";
+         std::string(kAdmissionNames[static_cast<std::size_t>(admission)]) + ", from " + to_text(source) +
+         "\n";
   std::cerr << text << std::flush;
 }
 
-std::array<std::uint64_t, kVerdicts> Guard::counts() const {
+std::array<std::uint64_t, kAdmissions> Guard::counts() const {
   const std::lock_guard lock(mutex_);
   return counts_;
 }
@@ -128,11 +129,11 @@ std::array<std::uint64_t, kVerdicts> Guard::counts() const {
 std::vector<transport::RefusedDatagrams> Guard::refused() const {
   const std::lock_guard lock(mutex_);
   std::vector<transport::RefusedDatagrams> out;
-  for (std::size_t i = 1; i < kVerdicts; ++i) {
+  for (std::size_t i = 1; i < kAdmissions; ++i) {
     // What a secure run leaves out as plain text is everyday.
-    if (counts_[i] == 0 || i == static_cast<std::size_t>(Verdict::plain)) continue;
+    if (counts_[i] == 0 || i == static_cast<std::size_t>(DatagramAdmission::plain)) continue;
     const auto& source = last_sources_[i];
-    out.push_back({std::string(kVerdictNames[i]), counts_[i], source ? to_text(source) : ""});
+    out.push_back({std::string(kAdmissionNames[i]), counts_[i], source ? to_text(source) : ""});
   }
   return out;
 }

@@ -1,4 +1,4 @@
-// Stands between the network and a vendor's parser: what it refuses, the vendor never sees.
+// The guard stands between the network and a vendor's parser.
 #pragma once
 
 #include <array>
@@ -17,52 +17,57 @@
 
 namespace roci::services::vendors::guard {
 
+/// Says whose datagrams a guard takes, and what of them.
 struct Policy {
-  /// Whose datagrams are taken, as IPv4 addresses in host byte order; empty: anybody's (a vendor's own XML says who).
+  /// Lists whose datagrams are taken, as IPv4 addresses in host byte order; empty: anybody's (a vendor's own XML says
+  /// whose).
   std::vector<std::uint32_t> peers;
-  /// Nobody is heard in plain but for what DDS Security cannot encrypt, and GUID prefixes are those of certificates.
+  /// Says that plain text is refused but for what DDS Security cannot encrypt, and that GUID prefixes are those of
+  /// certificates.
   bool secure = false;
 };
 
-/// The peers of these options (peers_of), this host among them. With vendor_xml it takes everybody.
+/// Returns the policy that takes the peers of these options (peers_of), this host among them; with vendor_xml
+/// it takes everybody.
 Policy policy_of(const transport::TransportOptions&);
 
-/// One for each participant or, with Cyclone DDS, for each domain of the process. Any thread may call it.
+/// Lets the vendor see nothing that it refuses. There is one for each participant or, with Cyclone DDS, for
+/// each domain of the process. Any thread may call it.
 class Guard {
  public:
   explicit Guard(Policy);
 
-  /// The length of what the vendor may read, at the beginning of `datagram`, which may have been changed; 0: nothing.
+  /// Returns how many bytes the vendor may read at the beginning of `datagram`, which may have been changed; 0: none.
   /// `source` is missing where it has no IPv4 address.
   std::size_t admit(std::span<std::uint8_t> datagram, const std::optional<Source>& source);
 
   bool is_secure() const { return policy_.secure; }
-  /// In a secure run: takes in what this process sends, and says whether nothing may be sent to this
+  /// Takes in, in a secure run, what this process sends, and returns whether nothing may be sent to this
   /// destination now (partings.hpp).
   bool keeps_back(std::span<const std::uint8_t> datagram, const Source& destination);
-  /// In a secure run: the vendor has given this participant up.
+  /// Takes in, in a secure run, that the vendor has given this participant up.
   void gave_up(const GuidPrefix&);
 
-  /// How many datagrams had each verdict.
-  std::array<std::uint64_t, kVerdicts> counts() const;
+  /// How many datagrams had each admission.
+  std::array<std::uint64_t, kAdmissions> counts() const;
   /// The same for operators, without those that passed and those that were left out as plain text.
   std::vector<transport::RefusedDatagrams> refused() const;
 
  private:
-  Verdict judge(std::span<const std::uint8_t> datagram, const std::optional<Source>&);
+  DatagramAdmission judge(std::span<const std::uint8_t> datagram, const std::optional<Source>&);
   std::size_t admit_secure(std::span<std::uint8_t> message);
-  void report(Verdict, const std::optional<Source>&);
+  void report(DatagramAdmission, const std::optional<Source>&);
   static void tell_of_parting();
 
   const Policy policy_;
   mutable std::mutex mutex_;
   Identities identities_;
-  std::array<std::uint64_t, kVerdicts> counts_{};
-  std::array<std::optional<Source>, kVerdicts> last_sources_{};
-  std::array<std::uint64_t, kVerdicts> reported_{};
+  std::array<std::uint64_t, kAdmissions> counts_{};
+  std::array<std::optional<Source>, kAdmissions> last_sources_{};
+  std::array<std::uint64_t, kAdmissions> reported_{};
   std::optional<Identities::Time> last_report_;
 
-  // What is encrypted, both ways, passes this lock by as long as there is no silence.
+  // Encrypted datagrams, both ways, bypass this lock as long as there is no silence.
   std::mutex partings_mutex_;
   Partings partings_;
   std::atomic<bool> silent_ = false;

@@ -22,19 +22,19 @@ std::size_t Identities::HashPrefix::operator()(const GuidPrefix& prefix) const {
   return std::hash<std::string_view>()({reinterpret_cast<const char*>(prefix.data()), prefix.size()});
 }
 
-Verdict Identities::claim(const GuidPrefix& prefix, const Source& source, Time now) {
-  if (is_borrowed(prefix, source)) return Verdict::taken_identity;
+DatagramAdmission Identities::claim(const GuidPrefix& prefix, const Source& source, Time now) {
+  if (is_borrowed(prefix, source)) return DatagramAdmission::taken_identity;
   const auto known = owners_.find(prefix);
   if (known != owners_.end()) {
-    if (known->second.source != source) return Verdict::taken_identity;
+    if (known->second.source != source) return DatagramAdmission::taken_identity;
     known->second.heard = now;
-    return Verdict::pass;
+    return DatagramAdmission::pass;
   }
-  if (!make_room(source, now)) return Verdict::crowd;
+  if (!make_room(source, now)) return DatagramAdmission::crowd;
   owners_.emplace(prefix, Owner{source, now});
   ++of_source_[source];
   ++of_address_[source.address];
-  return Verdict::pass;
+  return DatagramAdmission::pass;
 }
 
 bool Identities::make_room(const Source& source, Time now) {

@@ -1,4 +1,5 @@
-// Who speaks as whom: each GUID prefix belongs to the address and port that it was heard from first.
+// Identities say who speaks as whom: each GUID prefix belongs to the address and port that it was heard from
+// first.
 #pragma once
 
 #include <array>
@@ -9,40 +10,40 @@
 #include <map>
 #include <unordered_map>
 
+#include "services/vendors/guard/datagram_admission.hpp"
 #include "services/vendors/guard/parameters.hpp"
-#include "services/vendors/guard/verdict.hpp"
 
 namespace roci::services::vendors::guard {
 
-/// An IPv4 address and a UDP port, in host byte order.
+/// Holds an IPv4 address and a UDP port, in host byte order.
 struct Source {
   std::uint32_t address = 0;
   std::uint16_t port = 0;
   auto operator<=>(const Source&) const = default;
 };
 
-/// The first four bytes of the GUID prefix of a participant of ours: who sees it knows the one port that it speaks
-/// from, also before it has said anything.
+/// Returns the first four bytes of the GUID prefix of a participant of ours: they tell the one port that it speaks
+/// from, even before it has said anything.
 std::array<std::uint8_t, 4> prefix_start(std::uint16_t port);
 
-/// Both vendors send all that a participant says through one socket, so that whoever else uses its prefix is somebody
-/// else: without the right to forge addresses nobody can speak for a participant that was heard before. Prefixes are
-/// forgotten only to make room, and only those that are silent.
+/// Lets nobody speak for a participant that was heard before, unless they can forge addresses: both vendors send all
+/// that a participant says through one socket, so another socket that uses its prefix is an impostor's. Prefixes are
+/// forgotten only to make room, and only silent ones.
 class Identities {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
-  static constexpr std::size_t kPerAddress = 256;     ///< Six times the participants that a host may have.
-  static constexpr std::size_t kPerSource = 64;       ///< Participants of one process may share a socket.
-  static constexpr std::chrono::seconds kSilent{10};  ///< Three leases: the vendor has given it up.
+  static constexpr std::size_t kPerAddress = 256;     ///< six times the participants that a host may have
+  static constexpr std::size_t kPerSource = 64;       ///< participants of one process may share a socket
+  static constexpr std::chrono::seconds kSilent{10};  ///< three leases: the vendor has given it up
 
-  /// In a secure run a prefix comes of a certificate and names the port in its seventh and eighth byte
-  /// (certificate/guid_prefix.hpp), and no other is heard; in a plain one those of ours name it
-  /// in the third and fourth.
+  /// Expects, in a secure run, prefixes that come of certificates and name the port in their seventh and
+  /// eighth byte (certificate/guid_prefix.hpp), and refuses others; in a plain run our prefixes name it in
+  /// the third and fourth byte.
   explicit Identities(bool secure = false) : secure_(secure) {}
 
   /// pass, taken_identity or crowd.
-  Verdict claim(const GuidPrefix&, const Source&, Time now);
+  DatagramAdmission claim(const GuidPrefix&, const Source&, Time now);
 
  private:
   struct HashPrefix {

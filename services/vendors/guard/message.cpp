@@ -80,23 +80,23 @@ bool hides_plain_data(std::span<const std::uint8_t> message) {
 
 }  // namespace
 
-Verdict examine(std::span<const std::uint8_t> datagram) {
+DatagramAdmission examine(std::span<const std::uint8_t> datagram) {
   if (datagram.size() < kHeaderSize || std::memcmp(datagram.data(), "RTPS", 4) != 0 || datagram[4] != 2) {
-    return Verdict::no_rtps;
+    return DatagramAdmission::no_rtps;
   }
   const GuidPrefix sender = sender_of(datagram);
   for (auto rest = datagram.subspan(kHeaderSize); !rest.empty();) {
     const std::size_t size = size_of_first(rest);
-    if (size == 0) return Verdict::cut;
+    if (size == 0) return DatagramAdmission::cut;
     const ByteView body{rest.subspan(kSubmessageHeaderSize, size - kSubmessageHeaderSize),
                         is_little_endian(rest)};
     if (rest[0] < kFirstOfVendors) {
-      const Verdict verdict = examine_submessage({rest[0], rest[1], body}, sender);
-      if (verdict != Verdict::pass) return verdict;
+      const DatagramAdmission admission = examine_submessage({rest[0], rest[1], body}, sender);
+      if (admission != DatagramAdmission::pass) return admission;
     }
     rest = rest.subspan(size);
   }
-  return Verdict::pass;
+  return DatagramAdmission::pass;
 }
 
 GuidPrefix sender_of(std::span<const std::uint8_t> message) {

@@ -1,13 +1,13 @@
-// Judges RTPS messages before a vendor's parser sees them. Pure: the same bytes give the same verdict.
+// Judges RTPS messages before a vendor's parser sees them. Pure: the same bytes give the same admission.
 #pragma once
 
 #include <cstdint>
 #include <functional>
 #include <span>
 
+#include "services/vendors/guard/datagram_admission.hpp"
 #include "services/vendors/guard/parameters.hpp"
 #include "services/vendors/guard/submessages.hpp"
-#include "services/vendors/guard/verdict.hpp"
 
 namespace roci::services::vendors::guard {
 
@@ -16,9 +16,9 @@ inline constexpr std::size_t kHeaderSize = 20;  ///< of an RTPS message
 /// A message that passes is well-formed down to its submessages (RTPS 2.3, 8.3 and 9.4), claims no sample over
 /// kMaxSampleBytes, and speaks in discovery for its sender alone. What DDS Security has encrypted passes as it is;
 /// payloads of user topics are not looked into. It never says `stranger`, `taken_identity` or `crowd`.
-Verdict examine(std::span<const std::uint8_t> datagram);
+DatagramAdmission examine(std::span<const std::uint8_t> datagram);
 
-/// The participant that a message says it is from. It must have an RTPS header.
+/// Returns the participant that a message says it is from. The message must have an RTPS header.
 GuidPrefix sender_of(std::span<const std::uint8_t> message);
 
 /// Calls `see` with each submessage of a message that has an RTPS header, in its order,
@@ -31,18 +31,18 @@ void for_each_submessage(std::span<const std::uint8_t> message,
 /// unlikely ones.
 std::size_t strip_vendor_submessages(std::span<std::uint8_t> message);
 
-/// What may be read of a message of a secure run that passed and has no vendor's submessages: all of it if it is
-/// encrypted as a whole; else what precedes the exchange of keys (announcement of participants, handshake) and
-/// submessages that are encrypted one by one. The rest is taken out: also because Cyclone DDS sends acknowledgements
-/// and heartbeats of its plain discovery together with the handshake. Returns the new length;
-/// 0 if nothing is left that says something.
+/// Takes out of a message of a secure run, one that passed and has no vendor's submessages, what must not be read in
+/// plain, and returns the new length; 0 if nothing is left that says something. A message that is encrypted as a
+/// whole stays; else what precedes the exchange of keys (announcement of participants, handshake) stays, and
+/// submessages that are encrypted one by one. Cyclone DDS sends acknowledgements and heartbeats of its plain
+/// discovery together with the handshake; these are taken out.
 std::size_t strip_plain_submessages(std::span<std::uint8_t> message);
 
-/// Puts what a message of a secure run says in plain before what is encrypted one by one, if it stands behind that.
-/// strip_plain_submessages has left nothing in plain but announcements and handshakes. Cyclone DDS packs the last
-/// message of a handshake behind an acknowledgement that only the end of that handshake makes readable; Fast DDS stops
-/// reading where it cannot decrypt (MessageReceiver::processCDRMsg), and so it never met that last message. A message
-/// whose parts are for several participants stays as it is.
+/// Moves plain submessages of a secure run before those that are encrypted one by one. strip_plain_submessages has
+/// left nothing in plain but announcements and handshakes. Cyclone DDS packs the last message of a handshake behind an
+/// acknowledgement that only the end of that handshake makes readable; Fast DDS stops reading where it cannot decrypt
+/// (MessageReceiver::processCDRMsg), and would never see that last message. A message whose parts are for several
+/// participants stays as it is.
 void put_plain_submessages_first(std::span<std::uint8_t> message);
 
 }  // namespace roci::services::vendors::guard

@@ -67,23 +67,23 @@ bool may_speak_for(const GuidPrefix& sender, std::span<const std::uint8_t> other
   return (ours || eclipse) && std::equal(sender.begin(), sender.begin() + 4, other.begin());
 }
 
-ListVerdict examine_parameters(const ByteView& list, ListKind kind,
-                               const std::optional<GuidPrefix>& only_guids_of) {
+ListAdmission examine_parameters(const ByteView& list, ListKind kind,
+                                 const std::optional<GuidPrefix>& only_guids_of) {
   std::size_t at = 0;
   for (;;) {
-    if (list.size() - at < 4) return {Verdict::bad_parameters};
+    if (list.size() - at < 4) return {DatagramAdmission::bad_parameters};
     const auto id = static_cast<std::uint16_t>(list.u16(at) & ~kMustUnderstand);
     const std::size_t length = list.u16(at + 2);
     at += 4;
-    if (id == kSentinel) return {Verdict::pass, at};
-    if (length % 4 != 0 || length > list.size() - at) return {Verdict::bad_parameters};
+    if (id == kSentinel) return {DatagramAdmission::pass, at};
+    if (length % 4 != 0 || length > list.size() - at) return {DatagramAdmission::bad_parameters};
     const ByteView value = list.part(at, length);
     at += length;
     if (id == kPadding) continue;
-    if (!fits(id, value, kind)) return {Verdict::bad_parameters};
+    if (!fits(id, value, kind)) return {DatagramAdmission::bad_parameters};
     if (only_guids_of && names_guid(id) && value.size() >= only_guids_of->size() &&
         !may_speak_for(*only_guids_of, value.bytes)) {
-      return {Verdict::speaks_for_another};
+      return {DatagramAdmission::speaks_for_another};
     }
   }
 }

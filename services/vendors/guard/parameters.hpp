@@ -1,31 +1,33 @@
-// Parameter lists of RTPS (2.3, 9.4.2.11): inline QoS, and the samples of discovery.
+// This file examines parameter lists of RTPS (2.3, 9.4.2.11): inline QoS, and the samples of discovery.
 #pragma once
 
 #include <array>
 #include <optional>
 
 #include "services/vendors/guard/byte_view.hpp"
-#include "services/vendors/guard/verdict.hpp"
+#include "services/vendors/guard/datagram_admission.hpp"
 
 namespace roci::services::vendors::guard {
 
 using GuidPrefix = std::array<std::uint8_t, 12>;
 
-/// Whether `sender` may speak for the participant whose prefix begins `other` (of 12 bytes at least): itself, or with
-/// Cyclone DDS another one of its process, whose prefixes share their first four bytes. Of ours these name the socket.
+/// Returns whether `sender` may speak for the participant whose prefix begins `other` (of 12 bytes at least): itself
+/// or, with Cyclone DDS, another one of its process. Prefixes of one process share their first four bytes, which in
+/// ours name the socket.
 bool may_speak_for(const GuidPrefix& sender, std::span<const std::uint8_t> other);
 
+/// Says where a parameter list stands.
 enum class ListKind { inline_qos, discovery };
 
-struct ListVerdict {
-  Verdict verdict = Verdict::pass;
+struct ListAdmission {
+  DatagramAdmission admission = DatagramAdmission::pass;
   std::size_t size = 0;  ///< Of the list with its sentinel, in bytes; 0 unless it passes.
 };
 
 /// Judges the list at the beginning of `list`: lengths, and the inner lengths of the parameters in which parsers have
 /// had faults (names, partitions, properties, key hash, status, locators). With `only_guids_of`, each GUID and key hash
 /// in it must be of one for which that participant may speak.
-ListVerdict examine_parameters(const ByteView& list, ListKind,
-                               const std::optional<GuidPrefix>& only_guids_of);
+ListAdmission examine_parameters(const ByteView& list, ListKind,
+                                 const std::optional<GuidPrefix>& only_guids_of);
 
 }  // namespace roci::services::vendors::guard

@@ -1,4 +1,5 @@
-// The numbers of the wire protocol that the guard looks at, by the names of RTPS 2.3 and DDS Security 1.1.
+// These are the numbers of the wire protocol that the guard examines, by the names of RTPS 2.3 and DDS
+// Security 1.1.
 #pragma once
 
 #include <cstdint>

@@ -14,84 +14,86 @@ constexpr std::int64_t kLongestGap = std::int64_t{1} << 18;
 
 std::size_t bytes_of_bits(std::uint32_t bits) { return (bits + 31) / 32 * 4; }
 
-Verdict at_least(const Submessage& message, std::size_t size) {
-  return message.body.size() < size ? Verdict::cut : Verdict::pass;
+DatagramAdmission at_least(const Submessage& message, std::size_t size) {
+  return message.body.size() < size ? DatagramAdmission::cut : DatagramAdmission::pass;
 }
 
-Verdict acknack(const Submessage& message) {
+DatagramAdmission acknack(const Submessage& message) {
   const ByteView& body = message.body;
-  if (body.size() < 24) return Verdict::cut;
+  if (body.size() < 24) return DatagramAdmission::cut;
   const std::int64_t base = body.sequence_number(8);
   const std::uint32_t bits = body.u32(16);
   const bool preemptive = base == 0 && bits == 0;  // Fast DDS sends these before it knows the writer
-  if (bits > kMaxBits || (base <= 0 && !preemptive)) return Verdict::bad_numbers;
+  if (bits > kMaxBits || (base <= 0 && !preemptive)) return DatagramAdmission::bad_numbers;
   return at_least(message, 24 + bytes_of_bits(bits));
 }
 
-Verdict heartbeat(const Submessage& message) {
+DatagramAdmission heartbeat(const Submessage& message) {
   const ByteView& body = message.body;
-  if (body.size() < 28) return Verdict::cut;
+  if (body.size() < 28) return DatagramAdmission::cut;
   const std::int64_t first = body.sequence_number(8), last = body.sequence_number(16);
-  return first <= 0 || last < first - 1 ? Verdict::bad_numbers : Verdict::pass;
+  return first <= 0 || last < first - 1 ? DatagramAdmission::bad_numbers : DatagramAdmission::pass;
 }
 
-Verdict gap(const Submessage& message) {
+DatagramAdmission gap(const Submessage& message) {
   const ByteView& body = message.body;
-  if (body.size() < 28) return Verdict::cut;
+  if (body.size() < 28) return DatagramAdmission::cut;
   const std::int64_t start = body.sequence_number(8), base = body.sequence_number(16);
   const std::uint32_t bits = body.u32(24);
-  if (start <= 0 || base <= 0 || bits > kMaxBits) return Verdict::bad_numbers;
-  if (base - start > (start == 1 ? kLongestGapFromStart : kLongestGap)) return Verdict::bad_numbers;
+  if (start <= 0 || base <= 0 || bits > kMaxBits) return DatagramAdmission::bad_numbers;
+  if (base - start > (start == 1 ? kLongestGapFromStart : kLongestGap)) return DatagramAdmission::bad_numbers;
   return at_least(message, 28 + bytes_of_bits(bits));
 }
 
-Verdict nack_fragments(const Submessage& message) {
+DatagramAdmission nack_fragments(const Submessage& message) {
   const ByteView& body = message.body;
-  if (body.size() < 28) return Verdict::cut;
+  if (body.size() < 28) return DatagramAdmission::cut;
   const std::uint32_t base = body.u32(16), bits = body.u32(20);
-  if (body.sequence_number(8) <= 0 || base == 0 || bits > kMaxBits) return Verdict::bad_numbers;
+  if (body.sequence_number(8) <= 0 || base == 0 || bits > kMaxBits) return DatagramAdmission::bad_numbers;
   return at_least(message, 28 + bytes_of_bits(bits));
 }
 
-Verdict heartbeat_fragments(const Submessage& message) {
+DatagramAdmission heartbeat_fragments(const Submessage& message) {
   const ByteView& body = message.body;
-  if (body.size() < 24) return Verdict::cut;
-  return body.sequence_number(8) <= 0 || body.u32(16) == 0 ? Verdict::bad_numbers : Verdict::pass;
+  if (body.size() < 24) return DatagramAdmission::cut;
+  return body.sequence_number(8) <= 0 || body.u32(16) == 0 ? DatagramAdmission::bad_numbers
+                                                           : DatagramAdmission::pass;
 }
 
-Verdict info_source(const Submessage& message, const GuidPrefix& sender) {
-  if (message.body.size() < 20) return Verdict::cut;
-  return may_speak_for(sender, message.body.bytes.subspan(8)) ? Verdict::pass : Verdict::speaks_for_another;
+DatagramAdmission info_source(const Submessage& message, const GuidPrefix& sender) {
+  if (message.body.size() < 20) return DatagramAdmission::cut;
+  return may_speak_for(sender, message.body.bytes.subspan(8)) ? DatagramAdmission::pass
+                                                              : DatagramAdmission::speaks_for_another;
 }
 
 // DDS Security 1.1, 7.3.6: key kind, key, session, and a vector, 20 bytes.
-Verdict encryption_prefix(const Submessage& message) { return at_least(message, 20); }
+DatagramAdmission encryption_prefix(const Submessage& message) { return at_least(message, 20); }
 
 // Neither vendor looks whether what it says of its own length fits; the bytes are not authenticated yet.
-Verdict encrypted_body(const Submessage& message) {
+DatagramAdmission encrypted_body(const Submessage& message) {
   const ByteView big{message.body.bytes, false};
-  if (big.size() < 4) return Verdict::cut;
-  return big.u32(0) > big.size() - 4 ? Verdict::cut : Verdict::pass;
+  if (big.size() < 4) return DatagramAdmission::cut;
+  return big.u32(0) > big.size() - 4 ? DatagramAdmission::cut : DatagramAdmission::pass;
 }
 
 // A code of 16 bytes, then counted codes of 20 bytes for single receivers.
-Verdict encryption_postfix(const Submessage& message) {
+DatagramAdmission encryption_postfix(const Submessage& message) {
   const ByteView big{message.body.bytes, false};
-  if (big.size() < 20) return Verdict::cut;
-  return big.u32(16) > (big.size() - 20) / 20 ? Verdict::cut : Verdict::pass;
+  if (big.size() < 20) return DatagramAdmission::cut;
+  return big.u32(16) > (big.size() - 20) / 20 ? DatagramAdmission::cut : DatagramAdmission::pass;
 }
 
-Verdict info_timestamp(const Submessage& message) {
+DatagramAdmission info_timestamp(const Submessage& message) {
   const bool invalidates = (message.flags & kInvalidateFlag) != 0;
-  return invalidates ? Verdict::pass : at_least(message, 8);
+  return invalidates ? DatagramAdmission::pass : at_least(message, 8);
 }
 
 }  // namespace
 
-Verdict examine_submessage(const Submessage& message, const GuidPrefix& sender) {
+DatagramAdmission examine_submessage(const Submessage& message, const GuidPrefix& sender) {
   switch (message.id) {
     case kPad:
-      return Verdict::pass;
+      return DatagramAdmission::pass;
     case kAckNack:
       return acknack(message);
     case kHeartbeat:
@@ -121,7 +123,7 @@ Verdict examine_submessage(const Submessage& message, const GuidPrefix& sender) 
     case kSrtpsPostfix:
       return encryption_postfix(message);
     default:  // INFO_REPLY (0x0d, 0x0f) among them: neither vendor sends it, and it directs answers elsewhere
-      return Verdict::unknown_submessage;
+      return DatagramAdmission::unknown_submessage;
   }
 }
 

@@ -1,28 +1,29 @@
-// The kinds of submessages, one by one.
+// This file examines the kinds of submessages, one by one.
 #pragma once
 
 #include "services/vendors/guard/byte_view.hpp"
+#include "services/vendors/guard/datagram_admission.hpp"
 #include "services/vendors/guard/parameters.hpp"
-#include "services/vendors/guard/verdict.hpp"
 
 namespace roci::services::vendors::guard {
 
+/// Holds one submessage of a message.
 struct Submessage {
   std::uint8_t id = 0;
   std::uint8_t flags = 0;
-  ByteView body;  ///< What follows the four bytes of its header.
+  ByteView body;  ///< bytes after the four of its header
 };
 
 /// `id` is below 0x80; `sender` is the participant of the message's header.
-Verdict examine_submessage(const Submessage&, const GuidPrefix& sender);
+DatagramAdmission examine_submessage(const Submessage&, const GuidPrefix& sender);
 
-/// What a submessage is in a secure run if it is not encrypted together with its message.
+/// Says what a submessage is in a secure run if it is not encrypted together with its message.
 enum class Plain {
   refused,
-  context,  ///< It says where and when those behind it belong.
-  speech,  ///< The announcement of a participant, the handshake of DDS Security (1.1, 7.4.3), or encrypted itself.
+  context,  ///< says where and when those behind it belong
+  speech,   ///< announcement of a participant, handshake of DDS Security (1.1, 7.4.3), or encrypted itself
 };
-/// The submessage is well-formed, and its id below 0x80.
+/// Returns the kind of a well-formed submessage whose id is below 0x80.
 Plain plain_kind_of(const Submessage&);
 
 }  // namespace roci::services::vendors::guard

@@ -1,4 +1,4 @@
-// Where the inproc participants of one domain meet: matches writers with readers as DDS discovery does.
+// The bus is where the inproc participants of one domain meet.
 #pragma once
 
 #include <cstdint>
@@ -13,6 +13,7 @@
 
 namespace roci::services::vendors::inproc {
 
+/// Matches writers with readers as DDS discovery does.
 class Bus {
  public:
   void add(const std::shared_ptr<WriterEnd>&);
@@ -22,7 +23,7 @@ class Bus {
 
   ParticipantTable& participants() { return participants_; }
 
-  /// Unique in this process, from 1.
+  /// Returns a number that is unique in this process, from 1.
   std::uint64_t next_id();
 
  private:
@@ -33,7 +34,7 @@ class Bus {
   std::vector<std::shared_ptr<ReaderEnd>> readers_;
 };
 
-/// The bus of a domain lives as long as one of its participants holds it.
+/// Returns the bus of a domain, which lives as long as one of its participants holds it.
 std::shared_ptr<Bus> bus_of_domain(int domain);
 
 }  // namespace roci::services::vendors::inproc

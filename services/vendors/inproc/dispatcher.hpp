@@ -1,5 +1,4 @@
-// The delivery thread of one inproc participant: runs the callbacks of its endpoints one at a time, in
-// posting order.
+// The dispatcher is the delivery thread of one inproc participant.
 #pragma once
 
 #include <condition_variable>
@@ -12,6 +11,7 @@
 
 namespace roci::services::vendors::inproc {
 
+/// Runs the callbacks of the participant's endpoints one at a time, in posting order.
 class Dispatcher {
  public:
   using Endpoint = std::uint64_t;
@@ -19,7 +19,8 @@ class Dispatcher {
   Dispatcher();
 
   void post(Endpoint, std::function<void()> callback);
-  /// Forgets the endpoint's callbacks and waits until none of them runs any more. Never from a callback.
+  /// Forgets the endpoint's callbacks and waits until none of them runs any more. It must not be called from
+  /// a callback.
   void remove(Endpoint);
 
  private:

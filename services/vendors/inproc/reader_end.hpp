@@ -1,5 +1,4 @@
-// The receiving end of an inproc topic: a queue of samples and the life of each instance, as a DDS reader
-// keeps them.
+// The reader end is the receiving end of an inproc topic.
 #pragma once
 
 #include <chrono>
@@ -18,9 +17,10 @@
 
 namespace roci::services::vendors::inproc {
 
-/// Big-endian CDR of the key members; empty for types without key.
+/// Holds the big-endian CDR of the key members; empty for types without key.
 using Key = InstanceTable::Key;
 
+/// Keeps a queue of samples and the life of each instance, as a DDS reader does.
 class ReaderEnd : public std::enable_shared_from_this<ReaderEnd> {
  public:
   ReaderEnd(transport::EndpointDescription, transport::ReaderEvents, std::shared_ptr<Dispatcher>,
@@ -30,16 +30,16 @@ class ReaderEnd : public std::enable_shared_from_this<ReaderEnd> {
   const transport::Guid& guid() const { return guid_; }
   int matched_writers() const;
 
-  /// Books a place in the queue; false when a reliable keep-all queue stayed full for so long.
+  /// Books a place in the queue. Returns false when a reliable keep-all queue stayed full for `max_wait`.
   bool reserve(std::chrono::milliseconds max_wait);
   void release();
-  /// Delivers a sample; `reserved`: it takes a booked place.
+  /// Delivers a sample, which takes a booked place if `reserved`.
   void push(transport::Sample, const Key&, bool reserved);
 
   void attach(const transport::Guid& writer);
-  /// Instances without any other writer are reported as no_writers.
+  /// Detaches a writer; instances without any other writer are reported as no_writers.
   void detach(const transport::Guid& writer);
-  /// Returns when no callback runs any more; none follows.
+  /// Closes this end: when it returns, no callback runs, and none follows.
   void close();
 
  private:

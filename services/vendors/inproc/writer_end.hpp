@@ -1,5 +1,4 @@
-// The sending end of an inproc topic: hands samples to the matched readers and keeps the history for late
-// joiners.
+// The writer end is the sending end of an inproc topic.
 #pragma once
 
 #include <list>
@@ -15,6 +14,7 @@
 
 namespace roci::services::vendors::inproc {
 
+/// Hands samples to the matched readers, and keeps the history for late joiners.
 class WriterEnd : public std::enable_shared_from_this<WriterEnd> {
  public:
   WriterEnd(transport::EndpointDescription, transport::WriterEvents, std::shared_ptr<Dispatcher>,
@@ -27,7 +27,7 @@ class WriterEnd : public std::enable_shared_from_this<WriterEnd> {
   bool write(std::span<const std::uint8_t> payload);
   bool dispose(std::span<const std::uint8_t> payload);
 
-  /// A reader that asked for it gets the history first.
+  /// Attaches a reader, which gets the history first if it asked for it.
   void attach(const std::shared_ptr<ReaderEnd>&);
   void detach(const std::shared_ptr<ReaderEnd>&);
   /// Leaves all readers; returns when no callback runs any more.

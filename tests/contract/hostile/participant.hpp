@@ -44,6 +44,8 @@ class Participant {
   void announce();
   void send_to_readers(const Message&) const;  ///< To the ports for samples of users.
   void send_to_discovery(const Message&) const;
+  /// To both, messages in whose middle stand the statistics that Fast DDS reads at the end.
+  void send_statistics_in_the_middle() const;
   Message message() const { return {prefix_, vendor_}; }
   const Prefix& prefix() const { return prefix_; }
   int port() const { return socket_.port(); }

@@ -25,12 +25,12 @@ class Readers {
  public:
   Readers(const std::string& vendor, int domain)
       : transport_(transport::open_transport(vendor, {.domain = domain})) {
-    for_each_topic([this]<class T>(const Topic<T>& topic) { open(topic); });
+    for_each_topic([this]<class T>(const topics::Topic<T>& topic) { open(topic); });
   }
 
  private:
   template <class T>
-  void open(const Topic<T>& topic) {
+  void open(const topics::Topic<T>& topic) {
     transport::EndpointDescription endpoint{
         topic.name, transport::describe_type<T>(topic.type_name),
         transport::reader_qos(topic.qos, topic.clocking, clock::ClockMode::live),

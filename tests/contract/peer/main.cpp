@@ -2,6 +2,7 @@
 // PEER_ANNOUNCEMENT (own: as this build's),
 //   PEER_KEYS and PEER_SERVICE (a secure participant with the certificate of that service)
 //   PEER_WAYPOINTS (of the ways that a path-server answers; 2)
+//   PEER_UNANSWERED (calls from this number on are heard and not answered)
 //   ROLE: goal-writer, goal-reader, path-server, path-client, stranger (a goal-writer on the topic of path requests)
 // Standard input: write ISSUER ID PRIORITY | dispose ISSUER ID | call SEQUENCE X Y; it ends with the input.
 // Standard output, one line each: ready | matched N | goal ISSUER ID PRIORITY | disposed ISSUER ID | lost
@@ -74,6 +75,8 @@ Handlers handlers(Loop& loop, std::unique_ptr<Backend>& backend) {
         std::ostringstream line;
         line << "call " << call.sequence << " " << call.x_m << " " << call.y_m;
         say(line.str());
+        const std::string unanswered = variable("PEER_UNANSWERED", "");
+        if (!unanswered.empty() && call.sequence >= std::stoll(unanswered)) return;
         if (!backend->answer({call.client, call.sequence, 0, "found", std::hypot(call.x_m, call.y_m),
                               std::stoul(variable("PEER_WAYPOINTS", "2"))})) {
           say("refused");

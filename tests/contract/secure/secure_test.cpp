@@ -12,6 +12,7 @@
 #include "services/security/documents.hpp"
 #include "services/security/key_folder.hpp"
 #include "services/security/private_file.hpp"
+#include "tests/contract/hostile/participant.hpp"
 #include "tests/contract/secure/key_ring.hpp"
 #include "tests/contract/support/pairing.hpp"
 #include "tests/contract/support/peers.hpp"
@@ -134,6 +135,24 @@ TEST_P(OnceUnheard, AReaderHearsAgain) {
 INSTANTIATE_TEST_SUITE_P(Vendors, OnceUnheard, kEveryNetworkPairing, pairing_name);
 
 // Its own library refuses it, with the documents that it was given.
+// They stand outside the encryption, so whoever has no key can send them: to a reader that nobody has met, and to a pair
+// that has shaken hands.
+TEST_P(Secure, StatisticsInTheMiddleOfAMessageAreNotRead) {
+  constexpr std::uint32_t kLoopback = 0x7f000001;
+  const hostile::Participant attacker(kLoopback, domain_.id(), hostile::kEprosima, 1, "");
+  ChildProcess reader = certified(GetParam().reader, "goal-reader", "exec_svc");
+  ASSERT_TRUE(reader.wait_for("ready", kPatience));
+  attacker.send_statistics_in_the_middle();
+  ChildProcess writer = certified(GetParam().writer, "goal-writer", "roci");
+  writer.send("write ground photo 1");
+  ASSERT_TRUE(reader.wait_for("goal ground photo 1", kPatience));
+  attacker.send_statistics_in_the_middle();
+  writer.send("write ground photo 2");
+  EXPECT_TRUE(reader.wait_for("goal ground photo 2", kPatience));
+  EXPECT_EQ(writer.finish(), 0);
+  EXPECT_EQ(reader.finish(), 0);
+}
+
 TEST_P(Secure, ACertificateWithTheWrongRightsOpensNoWriter) {
   ChildProcess thief = certified(GetParam().writer, "goal-writer", "pathplan_svc");
   EXPECT_EQ(thief.finish(), 2);
@@ -196,7 +215,7 @@ TEST_P(Secure, ASampleInTheNameOfAnotherServiceIsRefused) {
   while (heard.empty() && std::chrono::steady_clock::now() < end)
     node.spin_once(std::chrono::milliseconds(50));
   EXPECT_THAT(heard, testing::ElementsAre("science_svc/find"));
-  EXPECT_EQ(node.impl().refusals.count(topics::goal.name, node::Refusal::another_name), 2U);
+  EXPECT_EQ(node.impl().rejected.count(topics::goal.name, node::SampleRejection::another_name), 2U);
 }
 
 INSTANTIATE_TEST_SUITE_P(Vendors, Secure, kEveryNetworkPairing, pairing_name);

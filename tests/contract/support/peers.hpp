@@ -25,8 +25,16 @@ inline std::vector<std::string> peer_environment(const std::string& kind) {
 
 class Peer : public ChildProcess {
  public:
-  Peer(const std::string& kind, const std::string& role, int domain)
-      : ChildProcess(peer_command(kind, role, domain), peer_environment(kind)) {}
+  // `environment`: more variables of its own (peer/main.cpp).
+  Peer(const std::string& kind, const std::string& role, int domain,
+       const std::vector<std::string>& environment = {})
+      : ChildProcess(peer_command(kind, role, domain), with(environment, peer_environment(kind))) {}
+
+ private:
+  static std::vector<std::string> with(std::vector<std::string> more, const std::vector<std::string>& own) {
+    more.insert(more.end(), own.begin(), own.end());
+    return more;
+  }
 };
 
 }  // namespace roci::services::contract

@@ -39,6 +39,8 @@ inline const std::map<std::string, std::string> kFileReaders{
      "FuzzTimelineModels.ADamagedFileIsTakenOrRefusedWithItsPlace"},
     {"planner_svc/utility_htn/cli/commands.cpp",
      "- opens a file to see whether it can be read; what reads it is load.cpp"},
+    {"planner_svc/utility_htn/cli/cycle.cpp",
+     "FuzzStepRecords.ADamagedRecordIsPlannedAgainOrRefusedWithItsPlace"},
     {"planner_svc/utility_htn/reading/load.cpp", "FuzzNetworks.ADamagedFileIsTakenOrRefusedWithItsPlace"},
     {"rehearsal/main.cpp", "- a file that this very process wrote"},
     {"rehearsal/statistics.cpp", "- files that this very process wrote"},

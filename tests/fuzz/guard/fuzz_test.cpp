@@ -19,10 +19,10 @@ using services::contract::hostile::kInlineQos;
 using services::contract::hostile::Message;
 using services::contract::hostile::Parameters;
 using services::contract::hostile::Prefix;
+using services::vendors::guard::DatagramAdmission;
 using services::vendors::guard::examine;
-using services::vendors::guard::kVerdicts;
+using services::vendors::guard::kAdmissions;
 using services::vendors::guard::strip_vendor_submessages;
-using services::vendors::guard::Verdict;
 
 std::vector<Bytes> seeds() {
   constexpr Prefix kOwn{1, 15, 1};
@@ -80,25 +80,27 @@ class Mutator {
 
 TEST(FuzzGuard, MutatedMessagesAreJudgedWithinTheirBytes) {
   const auto corpus = seeds();
-  for (const Bytes& seed : corpus) ASSERT_EQ(examine(seed), Verdict::pass);
+  for (const Bytes& seed : corpus) ASSERT_EQ(examine(seed), DatagramAdmission::pass);
   Mutator mutator(14);
-  std::array<int, kVerdicts> seen{};
+  std::array<int, kAdmissions> seen{};
   for (int i = 0; i < rounds(100'000); ++i) {
     const Bytes mutant = mutator.mutate(corpus[mutator.below(corpus.size())]);
     const auto exact = std::make_unique<std::uint8_t[]>(mutant.size());
     std::copy(mutant.begin(), mutant.end(), exact.get());
     const std::span<std::uint8_t> datagram(exact.get(), mutant.size());
-    const Verdict verdict = examine(datagram);
-    ++seen[static_cast<std::size_t>(verdict)];
-    if (verdict != Verdict::pass) continue;
+    const DatagramAdmission admission = examine(datagram);
+    ++seen[static_cast<std::size_t>(admission)];
+    if (admission != DatagramAdmission::pass) continue;
     const std::size_t size = strip_vendor_submessages(datagram);
     ASSERT_LE(size, datagram.size());
-    ASSERT_EQ(examine(datagram.first(size)), Verdict::pass) << "round " << i;
+    ASSERT_EQ(examine(datagram.first(size)), DatagramAdmission::pass) << "round " << i;
   }
-  for (const Verdict verdict :
-       {Verdict::pass, Verdict::no_rtps, Verdict::cut, Verdict::unknown_submessage, Verdict::bad_numbers,
-        Verdict::bad_fragment, Verdict::oversized, Verdict::bad_parameters, Verdict::speaks_for_another})
-    EXPECT_GT(seen[static_cast<std::size_t>(verdict)], 0) << static_cast<int>(verdict);
+  for (const DatagramAdmission admission :
+       {DatagramAdmission::pass, DatagramAdmission::no_rtps, DatagramAdmission::cut,
+        DatagramAdmission::unknown_submessage, DatagramAdmission::bad_numbers,
+        DatagramAdmission::bad_fragment, DatagramAdmission::oversized, DatagramAdmission::bad_parameters,
+        DatagramAdmission::speaks_for_another})
+    EXPECT_GT(seen[static_cast<std::size_t>(admission)], 0) << static_cast<int>(admission);
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 #include "tests/fuzz/topics/decoders.hpp"
 
 #include "services/node/codec.hpp"
-#include "services/topics.hpp"
+#include "services/topics/topics.hpp"
 
 namespace roci::fuzz {
 namespace {
@@ -9,7 +9,7 @@ namespace {
 namespace topics = services::topics;
 
 template <class T>
-Decoder decoder(const services::Topic<T>& topic) {
+Decoder decoder(const services::topics::Topic<T>& topic) {
   const std::string type = topic.type_name;
   return {type.substr(type.rfind(':') + 1), services::node::spec_of(topic),
           [](const void* value) { return services::transport::serialize(*static_cast<const T*>(value)); }};

@@ -1,4 +1,4 @@
-// Every topic of services/topics.hpp as what reads its samples.
+// Every topic of services/topics/topics.hpp as what reads its samples.
 #pragma once
 
 #include <string>

@@ -54,7 +54,7 @@ TEST(DecodersOfTopics, AreThereForEveryTopicTypeOfTheIdl) {
   std::vector<std::string> types;
   for (const Decoder& decoder : decoders()) types.push_back(decoder.type);
   EXPECT_THAT(types, testing::UnorderedElementsAreArray(topic_types()))
-      << "give each topic of services/topics.hpp its decoder in tests/fuzz/topics/decoders.cpp";
+      << "give each topic of services/topics/topics.hpp its decoder in tests/fuzz/topics/decoders.cpp";
 }
 
 TEST_P(Decoders, ReadWhatIsWhole) {

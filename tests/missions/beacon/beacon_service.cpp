@@ -37,11 +37,11 @@ class Beacon final : public services::Service, private owner::Driver {
       });
     }
   }
-  void break_off(const owner::CommandKey&, const owner::Word& why) override {
+  void break_off(const owner::CommandKey&, const owner::CommandStatus& why) override {
     node_.cancel(timer_);
     rest("dark", why);
   }
-  void rest(const std::string& state, const owner::Word& last) {
+  void rest(const std::string& state, const owner::CommandStatus& last) {
     report(state);
     commands_.say(*std::exchange(running_, std::nullopt), last);
   }

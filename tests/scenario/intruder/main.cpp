@@ -4,6 +4,8 @@
 //   as NAME                             speaks in this name from now on; first as exec_svc
 //   send ACTION OWNER SUBSYSTEM COMMAND ACTIVITY ISSUED SENDER_EPOCH [argument=value …]
 //   beat SERVICE INCARNATION TIMES      heartbeats, four a second
+//   observe TIMELINE STATE [argument …]   tells once of a timeline, latched, when somebody listens
+//   acknowledge OWNER ACTIVITY ISSUED     a last word on a command, as if he were its owner
 //   repeat SECONDS                      sends every command that he hears again, twice
 //   flood SECONDS                       well-formed goals, observations, hazards and requests, as fast as he can
 //   await SECONDS TEXT                  until a line that was heard holds the text; fails after that time
@@ -55,10 +57,14 @@ struct Voice {
       : node(options_of(vendor, run, name),
              services::transport::open_transport(vendor, transport_of(domain))),
         commands(services::advertise(node, topics::command)),
-        beats(services::advertise(node, topics::heartbeat)) {}
+        beats(services::advertise(node, topics::heartbeat)),
+        observations(services::advertise(node, topics::observation)),
+        acks(services::advertise(node, topics::command_ack)) {}
   services::Node node;
   services::Publisher<v1::Command> commands;
   services::Publisher<v1::Heartbeat> beats;
+  services::Publisher<v1::Observation> observations;
+  services::Publisher<v1::CommandAck> acks;
 };
 
 class Intruder {
@@ -89,6 +95,8 @@ class Intruder {
     }
     if (what == "send") return send(in);
     if (what == "beat") return beat(in);
+    if (what == "observe") return observe(in);
+    if (what == "acknowledge") return acknowledge(in);
     double seconds = 0;
     in >> seconds;
     if (what == "flood") return flood(seconds);
@@ -159,6 +167,27 @@ class Intruder {
       spin(0.25, [] { return false; });
     }
     return true;
+  }
+
+  bool observe(std::istringstream& in) {
+    v1::Observation out;
+    in >> out.timeline() >> out.observed().state();
+    out.observed().kind(v1::VALUE_STATE);
+    for (std::string argument; in >> argument;) out.observed().arguments().push_back(argument);
+    voice_->observations.write(out);
+    return spin(60, [this] { return voice_->observations.matched_readers() > 0; });
+  }
+
+  bool acknowledge(std::istringstream& in) {
+    v1::CommandAck out;
+    std::uint64_t issued = 0;
+    in >> out.owner() >> out.activity() >> issued;
+    out.commander("exec_svc");
+    out.epoch(issued);
+    out.attempt(1);
+    out.stage(v1::STAGE_COMPLETED);
+    voice_->acks.write(out);
+    return spin(60, [this] { return voice_->acks.matched_readers() > 0; });
   }
 
   // Each goal, timeline and hazard has a name of its own; none changes what the mission does.

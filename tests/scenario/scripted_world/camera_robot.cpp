@@ -60,12 +60,12 @@ void CameraRobot::carry_out(const owner::Request& request) {
   });
 }
 
-void CameraRobot::break_off(const owner::CommandKey&, const owner::Word& why) {
+void CameraRobot::break_off(const owner::CommandKey&, const owner::CommandStatus& why) {
   node_.cancel(timer_);
   end(why);
 }
 
-void CameraRobot::end(const owner::Word& last) {
+void CameraRobot::end(const owner::CommandStatus& last) {
   observe("rover.camera", "idle");
   commands_.say(*std::exchange(running_, std::nullopt), last);
 }

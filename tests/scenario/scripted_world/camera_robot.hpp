@@ -24,8 +24,8 @@ class CameraRobot final : private services::owner::Driver {
 
  private:
   void carry_out(const services::owner::Request& request) override;
-  void break_off(const services::owner::CommandKey& key, const services::owner::Word& why) override;
-  void end(const services::owner::Word& last);
+  void break_off(const services::owner::CommandKey& key, const services::owner::CommandStatus& why) override;
+  void end(const services::owner::CommandStatus& last);
   void measure(const std::string& timeline, double number);
 
   services::Node& node_;

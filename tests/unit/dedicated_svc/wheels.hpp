@@ -38,7 +38,7 @@ class Wheels final : private services::owner::Driver {
                                 how, "", results});
     });
   }
-  void break_off(const services::owner::CommandKey& key, const services::owner::Word& why) override {
+  void break_off(const services::owner::CommandKey& key, const services::owner::CommandStatus& why) override {
     cancelled.push_back(key.activity);
     node_.cancel(timer_);
     commands_.say(key, why);

@@ -108,8 +108,8 @@ void CrashWorld::obey(const Command& command) {
   const auto action = static_cast<services::owner::Action>(command.action);
   const Reception reception = ledger_.receive({key, action}, now_);
   if (reception.ack) {
-    const services::owner::Word& word = reception.ack->word;
-    return tell(command, static_cast<CommandStage>(word.stage), word.code);
+    const services::owner::CommandStatus& status = reception.ack->status;
+    return tell(command, static_cast<CommandStage>(status.stage), status.code);
   }
   if (reception.order == Reception::Order::break_off) {
     imaging_.reset();

@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "core/mission/entry.hpp"
+#include "exec_svc/mission/domain_names.hpp"
 #include "exec_svc/problem/problem_writer.hpp"
 #include "tests/unit/exec_svc/planetary_fixture.hpp"
 
@@ -138,6 +139,56 @@ TEST_F(GoalFormula, ThatCannotBeReadOrJudgedIsRefusedWhereItStands) {
   EXPECT_THAT(refusal_of("(>= (batery) 5)"), HasSubstr("the domain has no function 'batery'"));
   EXPECT_THAT(refusal_of("(<= (traverse_time here place-{id}) 5)"),
               HasSubstr("nobody observes 'traverse_time'"));
+}
+
+// Nobody could tell when such a goal holds: it is given up with that reason, and the others go on.
+TEST_F(GoalFormula, ThatRangesOverTooManyObjectsIsNoGoalForThePlanner) {
+  MissionModel model = with_goal("(exists (?a ?b ?c - location) (and (linked ?a ?b) (linked ?b ?c)))");
+  for (int i = 0; i < 300; ++i) {
+    mission::ObjectModel place;
+    place.name = "far-" + std::to_string(i);
+    place.type = "location";
+    model.objects.push_back(place);
+  }
+  goals::GoalSet goals(model);
+  goals.submit(testing::photo("a"), temporal::Time{0});
+  const auto beliefs = testing::standing_beliefs(model);
+  const problem::Problem problem =
+      problem::write_problem(model, beliefs, goals, "p", temporal::Time{0}, temporal::Time{0});
+  ASSERT_EQ(problem.unusable_goals.size(), 1U);
+  EXPECT_THAT(problem.unusable_goals.front().why, HasSubstr("derived predicate 'linked' ("));
+  EXPECT_THAT(problem.unusable_goals.front().why, HasSubstr("domain.pddl:"));
+  EXPECT_THAT(problem.unusable_goals.front().why, HasSubstr(" ranges over too many objects"));
+  EXPECT_FALSE(problem::is_achieved(model, beliefs, goals, testing::photo("a"), temporal::Time{0}));
+}
+
+TEST_F(GoalFormula, WithTooManyVariablesIsRefusedWhereItStands) {
+  std::string variables;
+  for (int i = 0; i < 257; ++i) variables += " ?v" + std::to_string(i);
+  EXPECT_THAT(
+      refusal_of("(forall (" + variables + " - image) (sent ?v0))"),
+      ::testing::ContainsRegex("mission.yaml:[0-9]+:[0-9]+: .*has 257 variables, and 256 are supported"));
+}
+
+TEST_F(GoalFormula, ADomainWithTooManyVariablesIsRefusedWhereItStands) {
+  std::string variables;
+  for (int i = 0; i < 257; ++i) variables += " ?v" + std::to_string(i);
+  const auto refusal = [](const std::string& rest) -> std::string {
+    try {
+      mission::read_domain(
+          "(define (domain d) (:requirements :derived-predicates :durative-actions)\n" + rest + ")",
+          "domain.pddl");
+    } catch (const roci::mission::FileError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_THAT(
+      refusal("(:predicates (p ?x) (d))\n(:derived (d) (forall (" + variables + ") (p ?v0)))"),
+      HasSubstr("domain.pddl:3:11: error: derived predicate 'd' has 257 variables, and 256 are supported"));
+  EXPECT_THAT(refusal("(:predicates (p ?x))\n(:action a :parameters (" + variables +
+                      ") :precondition (p ?v0) :effect (p ?v1))"),
+              HasSubstr("domain.pddl:3:1: error: action 'a' has 257 variables, and 256 are supported"));
 }
 
 }  // namespace

@@ -146,6 +146,13 @@ TEST_F(GoalSetTest, RejectsWithAReasonThatNamesTheRemedy) {
   goal.kind = "drop_sample";
   goal.arguments["sample"] = "nowhere";
   EXPECT_THAT(fault(goal), HasSubstr("names goal 'nowhere', which is not known"));
+  goal = photo("g");
+  goal.kind = "pick_sample";
+  goal.closes = seconds(9000);
+  EXPECT_THAT(fault(goal), HasSubstr("a pick_sample knows no window; leave 'opens' and 'closes' out, or give "
+                                     "goal kind 'pick_sample' a 'window' in mission.yaml"));
+  std::swap(goal.opens, goal.closes);
+  EXPECT_THAT(fault(goal), HasSubstr("a pick_sample knows no window"));
   EXPECT_TRUE(goals.open().empty());
 }
 
@@ -210,6 +217,26 @@ TEST_F(GoalSetTest, DropsNewestOpportunisticThenOptionalOfLowestUtilityNeverHard
   }
   EXPECT_THAT(order, ::testing::ElementsAre("new", "old", "opt-1", "opt-2", "opt-3"));
   EXPECT_EQ(goals.open().front()->request.key.id, "hard");
+}
+
+TEST_F(GoalSetTest, OfGoalsWorthTheSameTheLowestPriorityLeavesFirst) {
+  const auto submit = [this](const std::string& id, GoalClass importance, double utility, int priority) {
+    GoalRequest goal = photo(id, importance, utility);
+    goal.priority = priority;
+    EXPECT_EQ(fault(goal), "accepted");
+  };
+  submit("low", GoalClass::opportunistic, 9, -1);
+  submit("old", GoalClass::opportunistic, 1, 0);
+  submit("new", GoalClass::opportunistic, 1, 0);
+  submit("opt-low", GoalClass::optional, 2, 1);
+  submit("opt-high", GoalClass::optional, 2, 5);
+  submit("opt-cheap", GoalClass::optional, 1, 9);
+  std::vector<std::string> order;
+  while (const auto victim = goals.drop_candidate()) {
+    order.push_back(victim->id);
+    goals.set_state(*victim, GoalState::dropped, "test");
+  }
+  EXPECT_THAT(order, ::testing::ElementsAre("low", "new", "old", "opt-cheap", "opt-low", "opt-high"));
 }
 
 // Any gain of a higher rank outweighs every gain of the lower ones.

@@ -6,7 +6,7 @@
 
 namespace roci::exec::testing {
 
-using orders::AutonomyLevel;
+using mission::AutonomyLevel;
 using orders::Order;
 using orders::OrderKind;
 using orders::OrderStage;

@@ -62,15 +62,32 @@ TEST_F(HardGoalChoice, WithoutTrialsTheNewestFailUntilTheOthersFit) {
   EXPECT_THAT(in_state(GoalState::failed), ElementsAre("a", "b"));
 }
 
+TEST_F(HardGoalChoice, OfGoalsWorthTheSameTheLowestPriorityFails) {
+  set_conflicts({{{"a", "b"}}});
+  GoalRequest low = photo("a");
+  low.priority = -1;
+  run(1000, robot_and({low, photo("b")}));
+  EXPECT_THAT(in_state(GoalState::failed), ElementsAre("a")) << "though b is newer";
+}
+
+TEST_F(HardGoalChoice, ATrialBeginsWithTheLowestPriority) {
+  mission.executive.hard_goal_trials = 10;
+  set_conflicts({{{"a", "b"}}});
+  GoalRequest low = photo("a");
+  low.priority = -1;
+  run(1000, robot_and({low, photo("b")}));
+  EXPECT_THAT(in_state(GoalState::failed), ElementsAre("a"));
+  EXPECT_EQ(std::count(trace.begin(), trace.end(), "goal.weighed"), 1);
+}
+
 TEST_F(HardGoalChoice, TheFewestFailThatLeaveAPlanForTheOthers) {
   mission.executive.hard_goal_trials = 10;
   set_conflicts(kBigAgainstSmall);
   run(1000, robot_and({photo("big", GoalClass::hard, 9), photo("a"), photo("b")}));
   EXPECT_THAT(in_state(GoalState::failed), ElementsAre("big"));
   EXPECT_THAT(in_state(GoalState::achieved), ElementsAre("a", "b"));
-  EXPECT_THAT(reasons["big"],
-              HasSubstr("no plan achieves it together with a, b; with what leaves gone, the other "
-                        "hard goals have a plan\ndetails: too much"));
+  EXPECT_THAT(reasons["big"], HasSubstr("no plan achieves all of big, a, b; with what leaves gone, the other "
+                                        "hard goals have a plan\ndetails: too much"));
   EXPECT_EQ(std::count(trace.begin(), trace.end(), "goal.weighed"), 3) << "without b, a, big";
 }
 
@@ -80,7 +97,8 @@ TEST_F(HardGoalChoice, AfterAsManyTrialsAsTheMissionAllowsItIsAsWithout) {
   run(1000, robot_and({photo("big", GoalClass::hard, 9), photo("a"), photo("b")}));
   EXPECT_THAT(in_state(GoalState::failed), ElementsAre("a", "b"));
   EXPECT_THAT(reasons["b"],
-              ::testing::StartsWith("no plan achieves it together with big, a\ndetails: too much"))
+              ::testing::StartsWith(
+                  "no plan achieves all of big, a, b; this one leaves first, as the newest hard goal\n"))
       << "none was found that it saves";
 }
 

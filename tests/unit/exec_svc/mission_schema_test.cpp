@@ -32,6 +32,7 @@ const Section kSections[] = {
     {"services[]", "{name: arm_svc", ", zz: 1"},
     {"objects[]", "{name: here", ", zz: 1"},
     {"components[]", "  - name: nav\n", "    zz: 1\n"},
+    {"components[].lost", "  - name: nav\n", "    lost: {for_s: 60, as: [idle-at], zz: 1}\n"},
     {"components[].states.*", "going-to: {active: true", ", zz: 1"},
     {"families[]", "  - timeline: rover.image.*\n", "    zz: 1\n"},
     {"fluents[]", "{fluent: \"(battery)\"", ", zz: 1"},

@@ -103,7 +103,8 @@ TEST_F(OrbitalGoals, WhatTimelinesCannotSayIsOneFactByItsText) {
   EXPECT_THAT(text,
               ::testing::StartsWith("(exists (?b - module ?s - socket ?r - role) (and (seat camera-1 ?s)"));
   EXPECT_THAT(problem.text, HasSubstr(text)) << "the engine prints it from here";
-  EXPECT_EQ(temporal::describe(problem.goals[1].achieved), "(installed radar-1 s3) = true");
+  EXPECT_EQ(temporal::describe(problem.goals[1].achieved),
+            "(installed radar-1 s3) = true and (works radar-1) = true");
 }
 
 // The mission's files with one text of one of them changed; what reading them says.

@@ -68,8 +68,12 @@ TEST_F(ReactorTest, WhenNotAllFitTheNewestOpportunisticGoesFirst) {
   };
   run(1000, robot_and({photo("hard"), photo("first", GoalClass::opportunistic),
                        photo("second", GoalClass::opportunistic)}));
-  EXPECT_EQ(reasons["second"], "no plan achieves it together with hard, first\ndetails: too much");
-  EXPECT_EQ(reasons["first"], "no plan achieves it together with hard\ndetails: too much");
+  EXPECT_EQ(reasons["second"],
+            "no plan achieves all of hard, first, second; this one leaves first, as the newest opportunistic "
+            "goal\ndetails: too much");
+  EXPECT_EQ(reasons["first"],
+            "no plan achieves all of hard, first; this one leaves first, as the newest opportunistic "
+            "goal\ndetails: too much");
   EXPECT_EQ(reactor.outcome(), "achieved");
   EXPECT_EQ(reactor.counts().dropped, 2U);
 }
@@ -88,6 +92,45 @@ TEST_F(ReactorTest, AGoalAloneIsNotSaidToBeOneOfMany) {
   planner = [](const PlanRequest&) { return reply(Verdict::unsolvable, "too much"); };
   run(1000, robot_and({photo("only", GoalClass::optional, 1)}));
   EXPECT_EQ(reasons["only"], "no plan achieves it\ndetails: too much");
+}
+
+// The planner refuses every problem with the impossible goal and blames none. The others leave before it, and nobody
+// says of one of them, or of the impossible one, what it would be alone; once it is alone, the planner has said it.
+TEST_F(ReactorTest, WhereNoGoalIsBlamedNothingIsSaidOfOneAlone) {
+  planner = [this](const PlanRequest& call) {
+    return testing::asks_for(call, "impossible") ? reply(Verdict::unsolvable, "too much")
+                                                 : image_every_goal(call);
+  };
+  run(1000, robot_and({photo("impossible"), photo("soft", GoalClass::optional, 1)}));
+  EXPECT_EQ(
+      reasons["soft"],
+      "no plan achieves all of impossible, soft; this one leaves first, as the optional goal of the lowest "
+      "utility\ndetails: too much");
+  EXPECT_EQ(reasons["impossible"], "no plan achieves it\ndetails: too much");
+}
+
+TEST_F(ReactorTest, OneImpossibleGoalThatIsNotBlamedMayTakeAnotherHardOneWithIt) {
+  planner = [this](const PlanRequest& call) {
+    return testing::asks_for(call, "impossible") ? reply(Verdict::unsolvable, "too much")
+                                                 : image_every_goal(call);
+  };
+  run(1000, robot_and({photo("impossible"), photo("fine")}));
+  EXPECT_EQ(reasons["fine"],
+            "no plan achieves all of impossible, fine; this one leaves first, as the newest hard "
+            "goal\ndetails: too "
+            "much");
+  EXPECT_EQ(reasons["impossible"], "no plan achieves it\ndetails: too much");
+}
+
+// The soft goals are no part of the second call, so the reason does not name them.
+TEST_F(ReactorTest, AReasonNamesTheGoalsOfTheCallAlone) {
+  planner = [this](const PlanRequest& call) {
+    if (testing::asks_for(call, "soft")) return blocked({"first"});
+    return testing::asks_for(call, "second") ? reply(Verdict::unsolvable, "too much")
+                                             : image_every_goal(call);
+  };
+  run(1000, robot_and({photo("first"), photo("second"), photo("soft", GoalClass::optional, 1)}));
+  EXPECT_THAT(reasons["second"], ::testing::StartsWith("no plan achieves all of first, second; this one"));
 }
 
 // The planner thinks that it is done, and no observation says so: not 50 plans, but two.
@@ -130,7 +173,43 @@ TEST_F(ReactorTest, ASpentBudgetDropsTooAndIsReportedAsWhatItIs) {
     return reactor.goals().open().size() > 1 ? reply(Verdict::timeout) : image_every_goal(call);
   };
   run(1000, robot_and({photo("hard"), photo("soft", GoalClass::optional, 1)}));
-  EXPECT_EQ(reasons["soft"], "timeout");
+  EXPECT_THAT(
+      reasons["soft"],
+      ::testing::MatchesRegex("no plan was found within the planner's budget of [0-9]+ evaluations.*: .+ "
+                              "\\(x 110, y 60\\), together with hard\ndetails: timeout"));
+}
+
+// What an owner of functions did not find is no proof, and yet says which goal stands in the way.
+TEST_F(ReactorTest, AGoalThatStandsOnAnUnknownValueLeavesAndNoOther) {
+  planner = [this](const PlanRequest& call) {
+    if (!testing::asks_for(call, "misty")) return image_every_goal(call);
+    auto out = blocked({"misty"});
+    out.verdict = Verdict::timeout;
+    out.blocking[0].reason = "no way to place-misty is known: pathplan_svc found none";
+    out.reason = "not known: pathplan_svc found no way";
+    return out;
+  };
+  run(1000, robot_and({photo("misty", GoalClass::optional, 9), photo("free", GoalClass::optional, 1),
+                       photo("late", GoalClass::opportunistic)}));
+  EXPECT_EQ(reasons["misty"],
+            "not known: no way to place-misty is known: pathplan_svc found none\ndetails: not known: "
+            "pathplan_svc found no way");
+  EXPECT_EQ(reactor.goals().find({"ground", "free"})->state, GoalState::achieved);
+  EXPECT_EQ(reactor.goals().find({"ground", "late"})->state, GoalState::achieved);
+}
+
+// Where nobody says why, the goal itself is told, not how planners work.
+TEST_F(ReactorTest, AGoalThatNoPlanBringsAboutIsToldAsItWasAskedFor) {
+  planner = [this](const PlanRequest& call) {
+    if (!testing::asks_for(call, "walled")) return image_every_goal(call);
+    auto out = blocked({"walled"});
+    out.blocking[0].reason.clear();
+    return out;
+  };
+  run(1000, robot_and({photo("free"), photo("walled", GoalClass::optional, 1)}));
+  EXPECT_THAT(reasons["walled"],
+              ::testing::MatchesRegex("out of reach: no plan brings it about: .+ \\(x 110, y 60\\)\ndetails: "
+                                      "never reached: \\(sent image-walled\\)"));
 }
 
 TEST_F(ReactorTest, AHardGoalThatThePlannerNamesFailsAndTheRestGoesOn) {

@@ -253,5 +253,20 @@ TEST(Pair, WhoLooksForALeaderInVainIsNamedWhileNobodyLeads) {
   EXPECT_EQ(view.leaderless(), "");
 }
 
+// A goal may be open when a scenario's time is up; the executive has no outcome then.
+TEST(MissionViewTest, ARunIsOverWhenTheWorldSaysSo) {
+  for (const char* code : {"scenario.over", "scenario.time-up"}) {
+    lib::MissionView view = flying_mission();
+    EXPECT_FALSE(view.ended());
+    v1::Event event;
+    event.code("scenario.started");
+    view.take(event);
+    EXPECT_FALSE(view.ended());
+    event.code(code);
+    view.take(event);
+    EXPECT_TRUE(view.ended()) << code;
+  }
+}
+
 }  // namespace
 }  // namespace roci::console

@@ -190,8 +190,12 @@ TEST(MissionWords, OfPlanetaryHaveHelpAndExampleForEachGoalKind) {
               HasSubstr("photo: take an image at a place and send it in a communication window\n"
                         "  x  number\n"
                         "  y  number\n"
+                        "  --opens, --closes  its window, in mission time\n"
                         "  e.g. roci goal add NAME photo x=110 y=60\n"));
+  EXPECT_THAT(cli::goal_kinds_text(words), HasSubstr("  y  number\n  e.g. roci goal add NAME pick_sample"))
+      << "it knows no window";
   EXPECT_EQ(cli::goal_kinds_json(words)[0]["arguments"]["x"], "number");
+  EXPECT_EQ(cli::goal_kinds_json(words)[0]["window"], true);
 }
 
 TEST(Timelines, StandInTheTableOnceEachWithTheirUnit) {

@@ -23,7 +23,7 @@ namespace roci::services {
 namespace {
 
 using namespace std::chrono_literals;
-using node::Refusal;
+using node::SampleRejection;
 using testing::ElementsAre;
 using testing::SizeIs;
 
@@ -87,7 +87,7 @@ class Flood : public testing::Test {
   }
 
   template <class T>
-  transport::Writer& writer(const Topic<T>& topic) {
+  transport::Writer& writer(const topics::Topic<T>& topic) {
     writers_.push_back(
         intruder_->create_writer({topic.name, transport::describe_type<T>(topic.type_name),
                                   transport::writer_qos(topic.qos, topic.clocking, clock::ClockMode::live),
@@ -99,11 +99,11 @@ class Flood : public testing::Test {
   // What the node tells of its refusals.
   std::vector<v1::Event> told() {
     std::vector<v1::Event> events;
-    node_.impl().refusals.turn(clock::wall_now());
+    node_.impl().rejected.turn(clock::wall_now());
     Node listener(options("listener"), run_.transport());
     subscribe(listener, topics::event, [&](const v1::Event& event) { events.push_back(event); });
     listener.spin_once(0ms);
-    node_.impl().refusals.turn(clock::wall_now() + clock::wall_seconds(2));
+    node_.impl().rejected.turn(clock::wall_now() + clock::wall_seconds(2));
     for (int i = 0; i < 100 && events.empty(); ++i) listener.spin_once(20ms);
     return events;
   }
@@ -139,7 +139,9 @@ TEST_F(Flood, ASampleThatIsNoneIsToldByOneEventHoweverManyCome) {
   spin_until(node_, [&] { return heard == 1; });
   event.severity_level(static_cast<v1::Severity>(77));
   for (int i = 0; i < 9; ++i) events_of_intruder.write(transport::serialize(event));
-  spin_until(node_, [&] { return node_.impl().refusals.count(topics::event.name, Refusal::malformed) == 9; });
+  spin_until(node_, [&] {
+    return node_.impl().rejected.count(topics::event.name, SampleRejection::malformed) == 9;
+  });
   EXPECT_EQ(heard, 1);
   const auto events = told();
   ASSERT_THAT(events, SizeIs(1));
@@ -154,8 +156,9 @@ TEST_F(Flood, ALargerSampleThanItsTopicAllowsIsRefusedOnBothSides) {
   const v1::Heartbeat large = beat(std::string(limit, 'x'));
   EXPECT_FALSE(advertise(node_, topics::heartbeat).write(large));
   writer(topics::heartbeat).write(transport::serialize(large));
-  spin_until(node_,
-             [&] { return node_.impl().refusals.count(topics::heartbeat.name, Refusal::too_large) == 1; });
+  spin_until(node_, [&] {
+    return node_.impl().rejected.count(topics::heartbeat.name, SampleRejection::too_large) == 1;
+  });
 }
 
 TEST_F(Flood, TheInboxHasABoundForEachTopic) {
@@ -193,8 +196,9 @@ TEST_F(Flood, ServicesBeyondTheBoundAreNotKnown) {
   transport::Writer& beats = writer(topics::heartbeat);
   for (std::size_t i = 0; i < bounds::kPeers + 20; ++i)
     beats.write(transport::serialize(beat("service-" + std::to_string(i))));
-  spin_until(node_,
-             [&] { return node_.impl().refusals.count(topics::heartbeat.name, Refusal::no_room) >= 20; });
+  spin_until(node_, [&] {
+    return node_.impl().rejected.count(topics::heartbeat.name, SampleRejection::no_room) >= 20;
+  });
   EXPECT_TRUE(node_.peer_alive("service-7"));
 }
 

@@ -14,7 +14,7 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
-using Verdict = ContractCheck::Verdict;
+using Agreement = ContractCheck::Agreement;
 
 constexpr char kOwn[] = "roci;build=1;Goal=aaaaaaaa;Event=bbbbbbbb";
 const ContractTopic kGoal{"roci/goal", "roci::v1::Goal"};
@@ -44,13 +44,13 @@ class ContractCheckTest : public testing::Test {
 };
 
 TEST_F(ContractCheckTest, JudgesTypeByType) {
-  EXPECT_EQ(check.judge(kGoal, guid(1)), Verdict::same);
-  EXPECT_EQ(check.judge(kGoal, guid(2)), Verdict::different);
-  EXPECT_EQ(check.judge(kEvent, guid(2)), Verdict::same) << "this type is the same there";
-  EXPECT_EQ(check.judge(kGoal, guid(3)), Verdict::different);
-  EXPECT_EQ(check.judge(kGoal, guid(4)), Verdict::different);
-  EXPECT_EQ(check.judge(kGoal, guid(5)), Verdict::different) << "it does not know this type";
-  EXPECT_EQ(check.judge({"roci/attic", "roci::v1::Attic"}, guid(1)), Verdict::different) << "nor do we";
+  EXPECT_EQ(check.judge(kGoal, guid(1)), Agreement::same);
+  EXPECT_EQ(check.judge(kGoal, guid(2)), Agreement::different);
+  EXPECT_EQ(check.judge(kEvent, guid(2)), Agreement::same) << "this type is the same there";
+  EXPECT_EQ(check.judge(kGoal, guid(3)), Agreement::different);
+  EXPECT_EQ(check.judge(kGoal, guid(4)), Agreement::different);
+  EXPECT_EQ(check.judge(kGoal, guid(5)), Agreement::different) << "it does not know this type";
+  EXPECT_EQ(check.judge({"roci/attic", "roci::v1::Attic"}, guid(1)), Agreement::different) << "nor do we";
 }
 
 TEST_F(ContractCheckTest, AsksOncePerParticipant) {
@@ -78,7 +78,7 @@ TEST_F(ContractCheckTest, TellsOncePerParticipantAndTopicWithBothBuildsAndHashes
 TEST_F(ContractCheckTest, WhoWasMetBeforeItIsKnownIsJudgedLater) {
   check.met(kGoal, guid(9));
   EXPECT_THAT(check.take_mismatches(), IsEmpty());
-  EXPECT_EQ(check.judge(kGoal, guid(9)), Verdict::unknown);
+  EXPECT_EQ(check.judge(kGoal, guid(9)), Agreement::unknown);
   known[9] = {"late", "roci;build=3"};
   EXPECT_EQ(check.take_mismatches().size(), 1U);
 }

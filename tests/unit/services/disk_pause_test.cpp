@@ -6,7 +6,7 @@
 #include "services/node.hpp"
 #include "services/process/domain_claim.hpp"
 #include "services/publisher.hpp"
-#include "services/topics.hpp"
+#include "services/topics/topics.hpp"
 #include "services/transport/plug_ins.hpp"
 
 namespace roci::services::process {

@@ -9,11 +9,11 @@
 #include <filesystem>
 #include <fstream>
 
+#include "core/durable/durable_file.hpp"
 #include "services/clock/wall.hpp"
 #include "services/health/watchdog_notifier.hpp"
 #include "services/launch/child.hpp"
 #include "services/launch/notify_socket.hpp"
-#include "services/process/durable_file.hpp"
 #include "services/process/private_folder.hpp"
 #include "services/process/run_record.hpp"
 #include "services/process/stop_signals.hpp"
@@ -98,11 +98,11 @@ TEST_F(HostSafety, AFileIsReplacedAndALinkOfItsNameNotFollowed) {
   std::ofstream(folder / "precious") << "precious";
   fs::create_symlink(folder / "precious", folder / "record");
   fs::create_symlink(folder / "precious", folder / "record.new");
-  replace_file(folder / "record", "text");
+  durable::replace_file(folder / "record", "text");
   EXPECT_FALSE(fs::is_symlink(folder / "record"));
   EXPECT_EQ(fs::file_size(folder / "record"), 4U);
   EXPECT_EQ(fs::file_size(folder / "precious"), 8U);
-  EXPECT_THROW(replace_file(folder / "nowhere" / "record", "text"), std::system_error);
+  EXPECT_THROW(durable::replace_file(folder / "nowhere" / "record", "text"), std::system_error);
 }
 
 TEST_F(HostSafety, TheLogOfAChildIsNoLink) {

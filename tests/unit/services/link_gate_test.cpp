@@ -212,6 +212,34 @@ TEST_F(LinkGate, WhatAConsoleSendsComesOverTheLinkOfTheGround) {
   EXPECT_GE(receiver.now(), 3s);
 }
 
+// What a mission begins with was given to the robot before it left.
+TEST(LinkGateOfRobots, AGoalThatARobotIssuesItselfIsOnBoard) {
+  link::Link uplink{"uplink", {"ground", "rover"}};
+  uplink.light_time = 30s;
+  const std::map<std::string, std::string> robots{{"r", "rover"}, {"world", ""}};
+  SimRun run({"world", "r"});
+  run.robots = robots;
+  run.links = link::LinkTable({uplink}, robots, 1);
+  Node& world = run.add("world");
+  Node& rover = run.add("r");
+  std::vector<std::string> heard;
+  subscribe(rover, topics::goal, [&](const v1::Goal& goal) {
+    heard.push_back(std::to_string(rover.now() / 1s) + " " + goal.id());
+  });
+  const auto out = advertise(world, topics::goal);
+  world.at(1s, [&] {
+    for (const char* issuer : {"ground", "rover", "scout"}) {
+      v1::Goal goal;
+      goal.issuer(issuer);
+      goal.id(std::string("of ") + issuer);
+      out.write(goal);
+    }
+  });
+  world.at(60s, [&] { world.stop(); });
+  run.run();
+  EXPECT_THAT(heard, ElementsAre("1 of rover", "31 of ground", "31 of scout"));
+}
+
 // The world tells each robot of itself; another robot hears that over the radio alone, and it is no word of the ground.
 TEST(LinkGateOfRobots, WhatTheWorldSaysOfARobotComesOverItsRadio) {
   link::Link radio{"radio", {"scout", "primary"}};

@@ -5,7 +5,7 @@
 
 #include <stdexcept>
 
-#include "services/topics.hpp"
+#include "services/topics/topics.hpp"
 
 namespace roci::services::transport {
 namespace {

@@ -1,6 +1,9 @@
-"""The units that cmake --install puts down, as systemd itself judges them: they can be read, and what a service that was
-taken over could reach is little (systemd-analyze security, exposure 4.0 at most). Exits with 77 where there is no
-systemd."""
+"""Units as systemd itself judges them: they can be read, and what a service that was taken over could reach is little
+(systemd-analyze security, exposure 4.0 at most). Exits with 77 where there is no systemd.
+
+systemd_units_test.py [FOLDER]: the units that cmake --install has put down in FOLDER, with the program that they start; else those
+of the source folder, with a stand-in for it.
+"""
 
 import os
 import pathlib
@@ -22,19 +25,28 @@ def analyze(folder, *arguments):
     return ended.returncode, ended.stdout + ended.stderr
 
 
+def installed_unit(units):
+    return (units / "rocinante@.service").read_text()
+
+
+def unit_with_stand_in(folder):
+    launcher = folder / "roci-launch"
+    launcher.write_text("#!/bin/sh\n")
+    launcher.chmod(0o755)
+    return (SOURCE / "rocinante@.service.in").read_text().replace("@bin@", str(folder))
+
+
 def main():
     if shutil.which("systemd-analyze") is None:
-        print("skipped: there is no systemd-analyze here")
+        print("skipped: there is no systemd-analyze (Debian package systemd), so nobody has read the units or judged their exposure")
         return SKIPPED
     failures = []
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
-        launcher = folder / "roci-launch"
-        launcher.write_text("#!/bin/sh\n")
-        launcher.chmod(0o755)
+        template = installed_unit(pathlib.Path(sys.argv[1])) if len(sys.argv) > 1 else unit_with_stand_in(folder)
         unit = folder / "rocinante@exec_svc.service"
-        unit.write_text((SOURCE / "rocinante@.service.in").read_text().replace("@bin@", str(folder)))
-        shutil.copy(SOURCE / "rocinante.target", folder)
+        unit.write_text(template)
+        shutil.copy((pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else SOURCE) / "rocinante.target", folder)
         for each in (unit, folder / "rocinante.target"):
             code, text = analyze(folder, "--user", "verify", "--man=no", str(each))
             findings = [line for line in text.splitlines()
@@ -46,7 +58,7 @@ def main():
         if code != 0:
             failures.append(f"security: more exposed than {int(EXPOSURE) / 10}\n" + text)
     for key in ("MemoryMax=", "NoNewPrivileges=yes", "ProtectSystem=strict", "RestrictAddressFamilies="):
-        if key not in (SOURCE / "rocinante@.service.in").read_text():
+        if key not in template:
             failures.append("the unit does without " + key)
     print("\n".join(failures))
     return 1 if failures else 0

@@ -86,9 +86,11 @@ void SamplerFlight::pass(double s) {
 }
 
 double SamplerFlight::seconds_taken() const {
-  return temporal::to_seconds(last_ack(newest).value().word.results.duration.value());
+  return temporal::to_seconds(last_ack(newest).value().status.results.duration.value());
 }
 
-double SamplerFlight::joules_taken() const { return last_ack(newest).value().word.results.energy_j.value(); }
+double SamplerFlight::joules_taken() const {
+  return last_ack(newest).value().status.results.energy_j.value();
+}
 
 }  // namespace roci::sim

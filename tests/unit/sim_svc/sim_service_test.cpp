@@ -12,6 +12,7 @@
 #include "services/publisher.hpp"
 #include "services/rpc.hpp"
 #include "sim_svc/world_file_service.hpp"
+#include "tests/unit/core/durable/sync_record.hpp"
 #include "tests/unit/services/sim_run.hpp"
 
 namespace roci::sim {
@@ -368,6 +369,20 @@ TEST_F(SimService, BadFilesAreRefusedByPlaceAndRemedy) {
   EXPECT_THAT(error(), HasSubstr("choose one of: nominal"));
 }
 
+TEST(WorldFile, IsWaitedForOnceASecondAndWrittenEachTime) {
+  const auto file = std::filesystem::path(testing::TempDir()) / "roci_synced_world";
+  WorldFile world(file);
+  durable::synced().clear();
+  const services::clock::WallTime begin{};
+  const std::pair<int, std::size_t> syncs[] = {{0, 2}, {400, 2}, {999, 2}, {1000, 4}, {1500, 4}, {2100, 6}};
+  for (const auto& [ms, count] : syncs) {
+    world.keep({temporal::seconds(ms), {}, {}}, begin + std::chrono::milliseconds(ms));
+    EXPECT_EQ(durable::synced().size(), count) << "file and folder, after " << ms << " ms";
+    EXPECT_EQ(WorldFile(file).read()->at, temporal::seconds(ms));
+  }
+  std::filesystem::remove(file);
+}
+
 TEST(WorldFile, ComesBackAsItWas) {
   world::WorldMemory memory{temporal::seconds(7.5), {}, {{"soil", "there"}, {"rock", ""}}};
   world::RobotMemory& rover = memory.robots["rover"];
@@ -392,7 +407,7 @@ TEST(WorldFile, ComesBackAsItWas) {
   const auto file = std::filesystem::path(testing::TempDir()) / "roci_world_file";
   std::filesystem::remove(file);
   EXPECT_FALSE(WorldFile(file).read().has_value());
-  WorldFile(file).keep(memory);
+  WorldFile(file).keep(memory, {});
   const auto back = WorldFile(file).read();
   ASSERT_TRUE(back.has_value());
   EXPECT_EQ(to_text(*back), to_text(memory));

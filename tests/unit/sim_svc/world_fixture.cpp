@@ -5,9 +5,9 @@
 namespace roci::sim {
 
 using services::owner::Ack;
+using services::owner::CommandStatus;
 using services::owner::Reception;
 using services::owner::Request;
-using services::owner::Word;
 using temporal::seconds;
 using temporal::State;
 using temporal::Time;
@@ -91,17 +91,17 @@ world::TaskKey key_of(const services::owner::CommandKey& key) {
   return {key.activity, key.attempt, key.commander, key.issued_epoch};
 }
 
-Word word_of(const world::TaskReport& report) {
+CommandStatus status_of(const world::TaskReport& report) {
   using services::owner::Stage;
   static const std::map<world::TaskStage, Stage> stages{{world::TaskStage::accepted, Stage::accepted},
                                                         {world::TaskStage::rejected, Stage::rejected},
                                                         {world::TaskStage::completed, Stage::completed},
                                                         {world::TaskStage::failed, Stage::failed},
                                                         {world::TaskStage::cancelled, Stage::cancelled}};
-  Word word{stages.at(report.stage), report.code, report.reason};
+  CommandStatus status{stages.at(report.stage), report.code, report.reason};
   if (report.results)
-    word.results = {report.results->duration, report.results->energy_j, report.results->values};
-  return word;
+    status.results = {report.results->duration, report.results->energy_j, report.results->values};
+  return status;
 }
 
 }  // namespace
@@ -113,7 +113,7 @@ void Flight::hear(Outputs outputs) {
     if (!report) continue;
     const auto ack = report->stage == world::TaskStage::repairing
                          ? ledger.repair(key_of(report->key), report->reason, report->at)
-                         : ledger.say(key_of(report->key), word_of(*report), report->at);
+                         : ledger.say(key_of(report->key), status_of(*report), report->at);
     if (ack) acks.push_back(*ack);
   }
   append(said, std::move(outputs));
@@ -165,10 +165,10 @@ std::optional<Ack> Flight::last_ack(const std::string& activity) const {
 
 services::owner::Stage Flight::stage(const std::string& activity) const {
   const auto ack = last_ack(activity);
-  return ack ? ack->word.stage : services::owner::Stage::unknown;
+  return ack ? ack->status.stage : services::owner::Stage::unknown;
 }
 
-std::string Flight::code(const std::string& activity) const { return last_ack(activity).value().word.code; }
+std::string Flight::code(const std::string& activity) const { return last_ack(activity).value().status.code; }
 
 Time Flight::time_of(const std::string& activity) const { return last_ack(activity).value().at; }
 

@@ -16,7 +16,7 @@
 
 namespace roci::planner::temporal_pddl::grounding::instantiation {
 
-/// Is an atom or its negation.
+/// Holds an atom or its negation.
 struct GroundLiteral {
   GroundLiteral() = default;
   constexpr GroundLiteral(std::uint32_t of, bool is_negated) : atom(of & 0x7fffffffu), negated(is_negated) {}
@@ -33,7 +33,7 @@ struct GroundLiteral {
   }
 };
 
-/// Is a conjunction, all of which must hold. Both lists are sorted and without duplicates.
+/// Holds a conjunction, all of which must hold. Both lists are sorted and without duplicates.
 struct Conjunction {
   task::ShortList<GroundLiteral> literals;
   task::RareList<task::NumericCondition> comparisons;
@@ -45,10 +45,10 @@ struct Conjunction {
 /// Lists alternatives: without any it is false, and with an empty one it is true.
 using Disjunction = std::vector<Conjunction>;
 
-/// Is an entry of a read set: what a condition at the start or at the end of an action reads without asking
-/// for it. These are parts that what never changes decides, alternatives that were not chosen, and conditions
-/// of effects that do not happen. Nobody may change it within ε of that moment either (R6; Fox and Long 2003,
-/// definition 12).
+/// Holds an entry of a read set: what a condition at the start or at the end of an action reads without
+/// asking for it. These are parts that what never changes decides, alternatives that were not chosen, and
+/// conditions of effects that do not happen. Nobody may change it within ε of that moment either (R6; Fox and
+/// Long 2003, definition 12).
 struct ReadVariable {
   std::uint32_t index = 0;  ///< the index of an atom or a number
   bool is_number = false;
@@ -71,8 +71,8 @@ struct ActionWindows {
   task::TimeWindows start = task::any_time(), end = task::any_time(), span = task::any_time();
 };
 
-/// Is an action instance with one choice among the alternatives of its conditions. There may be a million of them: an
-/// action of a few conditions and effects takes this struct and nothing on the heap.
+/// Describes an action instance with one choice among the alternatives of its conditions. There may be a million of
+/// them: an action of a few conditions and effects takes this struct and nothing on the heap.
 struct GroundAction {
   task::SchemaId schema;
   std::uint32_t read_sets = 0;  ///< the index of a list of GroundModel::read_sets
@@ -89,7 +89,7 @@ struct GroundAction {
 /// Returns what the lists of an action take besides the action itself.
 std::size_t heap_bytes(const GroundAction& action);
 
-/// Is a rule: wherever the body holds, so does the head, a derived atom.
+/// Holds a rule: wherever the body holds, so does the head, a derived atom.
 struct GroundRule {
   GroundLiteral head;
   int layer = 0;
@@ -102,7 +102,7 @@ struct TimedChange {
   GroundEffects effects;
 };
 
-/// Is an action instance that none of its windows has room for.
+/// Describes an action instance that none of its windows has room for.
 struct WindowMisfit {
   task::SchemaId schema;
   std::vector<task::ObjectId> arguments;
@@ -111,7 +111,7 @@ struct WindowMisfit {
   temporal::Duration window{0};     ///< the longest
 };
 
-/// Is an action instance that can never run; see grounding/impossible_actions.hpp.
+/// Describes an action instance that can never run; see grounding/impossible_actions.hpp.
 struct ImpossibleAction {
   task::SchemaId schema;
   std::vector<task::ObjectId> arguments;

@@ -16,7 +16,7 @@
 
 namespace roci::planner::temporal_pddl::grounding::invariants {
 
-/// Is a set of atoms and running actions of which at most one holds at any time.
+/// Holds a set of atoms and running actions of which at most one holds at any time.
 struct MutexGroup {
   std::vector<std::uint32_t> atoms;    ///< ascending
   std::vector<std::uint32_t> running;  ///< indices of GroundModel::actions, ascending

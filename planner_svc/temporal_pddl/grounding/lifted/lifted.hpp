@@ -13,7 +13,7 @@
 
 namespace roci::planner::temporal_pddl::grounding::lifted {
 
-/// Is an argument of an atom or a function: a slot of the binding, or an object.
+/// Names an argument of an atom or a function: a slot of the binding, or an object.
 struct Argument {
   bool is_slot = false;
   std::uint32_t index = 0;  ///< the index of a slot, else of an object
@@ -30,19 +30,19 @@ inline task::ObjectId resolve(Argument argument, const Binding& binding) {
 /// An action or goal may have so many slots at most: whatever runs through their values may recurse that deep.
 inline constexpr std::uint32_t kMaxSlots = 256;
 
-/// Is a slot of a quantified variable with the objects that it may take.
+/// Holds a slot of a quantified variable with the objects that it may take.
 struct QuantifiedSlot {
   std::uint32_t slot = 0;
   std::vector<task::ObjectId> domain;
 };
 
-/// Is a predicate with arguments.
+/// Holds a predicate with arguments.
 struct LiftedAtom {
   task::PredicateId predicate;
   std::vector<Argument> arguments;
 };
 
-/// Is a numeric expression over slots and objects.
+/// Holds a numeric expression over slots and objects.
 struct LiftedExpression {
   enum class Kind {
     number,
@@ -59,7 +59,7 @@ struct LiftedExpression {
   pddl::SourceLocation where;
 };
 
-/// Is a condition in negation normal form.
+/// Holds a condition in negation normal form.
 struct LiftedFormula {
   enum class Kind { conjunction, disjunction, forall, exists, atom, not_atom, equal, not_equal, comparison };
   Kind kind = Kind::conjunction;
@@ -75,8 +75,8 @@ struct LiftedFormula {
   bool is_true() const { return kind == Kind::conjunction && parts.empty(); }
 };
 
-/// Is an effect that happens for every value of the quantified slots if the condition holds: at the start
-/// (tested before the start) or at the end (tested before the end).
+/// Describes an effect that happens for every value of the quantified slots if the condition holds: at the
+/// start (tested before the start) or at the end (tested before the end).
 struct LiftedEffect {
   enum class Kind { add, remove, numeric };
   Kind kind = Kind::add;
@@ -99,7 +99,7 @@ struct LiftedDuration {
   pddl::TimePoint at = pddl::TimePoint::start;
 };
 
-/// Is an action, or a rule of a derived predicate, over slots.
+/// Describes an action, or a rule of a derived predicate, over slots.
 struct LiftedAction {
   std::string name;
   bool durative = true;

@@ -8,7 +8,7 @@
 
 namespace roci::planner::temporal_pddl::grounding::lifted {
 
-/// Is a planning failure that knows its place in the model; its reason is the diagnostic's text.
+/// Carries a planning failure that knows its place in the model; its reason is the diagnostic's text.
 class ModelFailure final : public call::PlanningFailure {
  public:
   ModelFailure(temporal::Verdict verdict, pddl::Diagnostic where)

@@ -13,7 +13,7 @@
 
 namespace roci::planner::temporal_pddl::grounding::lifted {
 
-/// Is a timed initial literal.
+/// Holds a timed initial literal.
 struct TimedAtom {
   double time = 0;  ///< seconds, > 0
   task::PredicateId predicate;

@@ -21,7 +21,7 @@ struct FunctionSymbol {
   pddl::SourceLocation declared;                        ///< is a place in the domain's file
 };
 
-/// Is built from a checked model: every name that is looked up is there.
+/// Looks up the names of a checked model, from which it is built: every name that is looked up is there.
 class Symbols {
  public:
   Symbols(const pddl::Domain& domain, const pddl::Problem& problem);

@@ -10,7 +10,7 @@
 
 namespace roci::planner::temporal_pddl::grounding::simplification {
 
-/// Is a number without an initial value that some condition, effect or duration reads.
+/// Names a number without an initial value that some condition, effect or duration reads.
 struct UndefinedNumber {
   task::NumberId number;
   std::uint32_t has_value = 0;  ///< the atom that is true from the first assignment on

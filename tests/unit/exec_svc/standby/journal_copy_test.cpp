@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <random>
 
+#include "exec_svc/limits.hpp"
 #include "exec_svc/standby/journal_feed.hpp"
 
 namespace roci::exec {
@@ -230,6 +231,36 @@ TEST_F(JournalCopyTest, TheWholeJournalLeavesOutWhatIsNotCommitted) {
   journal.put_peer("arm_svc", 1);
   other.replace_with(journal.serialized());
   EXPECT_TRUE(other.peers().empty());
+}
+
+// Whoever sends parts of what is no journal, with checksums that fit, fills no memory and keeps no honest copy away.
+TEST_F(JournalCopyTest, AWholeJournalBeyondTheBoundIsForgottenAndAskedForAnew) {
+  Journal journal = open("journal"), other = open("copy");
+  journal.begin_epoch(2);
+  for (int step = 1; step < 2000; ++step) write_step(journal, step);
+  const auto parts = standby::split(2, journal.position(), journal.serialized());
+  ASSERT_GT(parts.size(), 2U);
+  JournalCopy copy(other);
+  const auto sealed = [](Chunk chunk) {
+    chunk.checksum = checksum(chunk);
+    return chunk;
+  };
+  Chunk endless = parts[0];
+  endless.parts = kJournalCopyBytes / standby::kPartBytes + 1;
+  EXPECT_EQ(copy.take(sealed(endless), 2), Result::excess);
+  Chunk large = parts[0];
+  large.bytes.resize(standby::kPartBytes + 1);
+  EXPECT_EQ(copy.take(sealed(large), 2), Result::excess);
+  EXPECT_EQ(copy.arrival(), standby::TransferProgress{});
+  ASSERT_EQ(copy.take(parts[0], 2), Result::part);
+  Chunk longer = parts[1];
+  ++longer.parts;
+  EXPECT_EQ(copy.take(sealed(longer), 2), Result::excess) << "more than was announced";
+  EXPECT_EQ(copy.arrival(), standby::TransferProgress{}) << "so the first part is sent again";
+  EXPECT_EQ(copy.take(parts[1], 2), Result::gap);
+  for (const Chunk& part : parts)
+    EXPECT_EQ(copy.take(part, 2), part.part + 1 < part.parts ? Result::part : Result::whole);
+  EXPECT_TRUE(everything(other) == everything(journal));
 }
 
 // Random losses, repetitions, delays and broken bytes both ways, and a copy that is started anew.

@@ -13,10 +13,10 @@ using goals::GoalRecord;
 using goals::GoalState;
 using journal::Position;
 using standby::Lease;
+using standby::LeaseReport;
 using standby::LeaseSettings;
 using standby::Member;
 using standby::Moment;
-using standby::OwnerWord;
 using standby::Role;
 
 namespace {
@@ -140,17 +140,17 @@ void PairWorld::deliver_to_owners() {
     const auto grant = owner.leases.ask({kCommander, name_of(request.member), request.epoch, request.wanted,
                                          request.leads, request.term, request.said},
                                         owner.epoch, owner_clock());
-    OwnerWord word;
-    word.owner = owner_name(message.to_owner);
-    if (!grant.member.empty()) word.holder = grant.member == "first" ? Member::first : Member::second;
-    word.epoch = grant.epoch;
-    word.newest_epoch = std::max(owner.epoch, owner.leases.newest_led(kCommander));
-    word.echo = grant.echo;
-    word.term = grant.term;
+    LeaseReport report;
+    report.owner = owner_name(message.to_owner);
+    if (!grant.member.empty()) report.holder = grant.member == "first" ? Member::first : Member::second;
+    report.epoch = grant.epoch;
+    report.newest_epoch = std::max(owner.epoch, owner.leases.newest_led(kCommander));
+    report.echo = grant.echo;
+    report.term = grant.term;
     for (const Member member : {Member::first, Member::second}) {
       Message out;
       out.to = member;
-      out.word = word;
+      out.report = report;
       post(std::move(out), !reaches(member, message.to_owner));
     }
   }
@@ -210,9 +210,9 @@ void PairWorld::speak(Member member) {
 
 void PairWorld::take(Member member, const Message& message) {
   Process& process = at(member);
-  if (message.word) {
-    process.owner_heard[message.word->owner] = clock(member);
-    return process.lease->hear(*message.word, clock(member));
+  if (message.report) {
+    process.owner_heard[message.report->owner] = clock(member);
+    return process.lease->hear(*message.report, clock(member));
   }
   if (message.message) {
     process.lease->hear(*message.message, clock(member));

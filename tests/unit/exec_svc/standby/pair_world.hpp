@@ -131,8 +131,9 @@ class PairWorld {
     std::set<int> commanded;   // goals, as its plan knows
     std::optional<Line> late;
     std::map<std::string, standby::Moment> owner_heard;
-    std::optional<standby::LeaseMessage> other;  // newest word of the other, as far as the copy is concerned
-    journal::Position fed;                       // up to which lines are under way
+    std::optional<standby::LeaseMessage>
+        other;              // newest message of the other, as far as the copy is concerned
+    journal::Position fed;  // up to which lines are under way
     standby::Moment fed_at{0};
     std::optional<journal::Position> told_alone;
     standby::Lease::Change last_change = standby::Lease::Change::none;
@@ -146,9 +147,9 @@ class PairWorld {
     standby::Moment due{0};
     standby::Member to = standby::Member::first;
     std::optional<standby::LeaseMessage> message{};
-    std::optional<standby::OwnerWord> word{};  // of an owner
-    std::uint64_t leader = 0;                  // of the lines
-    journal::Position after{};                 // none of the sender's lines before them: the whole journal
+    std::optional<standby::LeaseReport> report{};  // of an owner
+    std::uint64_t leader = 0;                      // of the lines
+    journal::Position after{};  // none of the sender's lines before them: the whole journal
     std::vector<Line> lines{};
     bool whole = false;
     std::optional<goals::GoalRecord> handed_over{};

@@ -99,7 +99,8 @@ class DecisionHostTest : public ::testing::Test {
   }
 
   template <class T>
-  static void write_at(services::Node& node, temporal::Time at, const services::Topic<T>& topic, T sample) {
+  static void write_at(services::Node& node, temporal::Time at, const services::topics::Topic<T>& topic,
+                       T sample) {
     node.at(at, [writer = services::advertise(node, topic), sample = std::move(sample)] {
       writer.write(sample);
     });

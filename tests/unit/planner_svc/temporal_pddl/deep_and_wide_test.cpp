@@ -1,38 +1,22 @@
 // Inputs that are deep and wide, on a small stack: nothing recurses as deep as an input has parts.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <pthread.h>
 
-#include <functional>
 #include <string>
 #include <vector>
 
 #include "planner_svc/temporal_pddl/heuristics/ff.hpp"
 #include "tests/unit/planner_svc/temporal_pddl/validated.hpp"
+#include "tests/unit/small_stack.hpp"
 
 namespace roci::planner::temporal_pddl {
 namespace {
 
+using roci::testing::on_small_stack;
 using temporal::Verdict;
 using ::testing::HasSubstr;
 
-constexpr std::size_t kStack = 256 * 1024;  // bytes; a usual one has 8 MiB
 constexpr int kMany = 1200;
-
-void* run(void* function) {
-  (*static_cast<std::function<void()>*>(function))();
-  return nullptr;
-}
-
-void on_small_stack(std::function<void()> function) {
-  pthread_attr_t attributes;
-  ASSERT_EQ(pthread_attr_init(&attributes), 0);
-  ASSERT_EQ(pthread_attr_setstacksize(&attributes, kStack), 0);
-  pthread_t thread{};
-  ASSERT_EQ(pthread_create(&thread, &attributes, run, &function), 0);
-  pthread_join(thread, nullptr);
-  pthread_attr_destroy(&attributes);
-}
 
 Result solved_on_small_stack(const testing::Model& model, const call::Options& options = {}) {
   Result result;

@@ -4,7 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <optional>
 #include <sstream>
+#include <string>
+#include <tuple>
+#include <vector>
 
 #include "core/pddl/check.hpp"
 #include "planner_svc/temporal_pddl/heuristics/ff.hpp"
@@ -85,6 +89,78 @@ class OneForAll final : public engine::FunctionSource {
   }
 };
 
+// The orbital mission's domain, with the arm at rest in light and this besides.
+testing::Model orbiter(const std::string& init, const std::string& goal) {
+  std::ostringstream domain;
+  domain << std::ifstream(ROCI_SOURCE_DIR "/missions/orbital/domain.pddl").rdbuf();
+  testing::Model model;
+  model.domain = pddl::load_domain(domain.str(), "domain.pddl");
+  model.problem = pddl::load_problem(
+      "(define (problem p) (:domain orbital) (:objects home - slot  power imaging - role  survey - mode"
+      "  camera-1 camera-2 power-1 - module  s0 s1 s2 s3 - socket)\n(:init (arm-at home) (arm-first home)"
+      " (tool-ready) (array-ready) (sunlit) (= (battery) 800000) (= (reserve) 150000) (= (capacity) 800000)"
+      " (at-slot camera-1 s0) (lay-first camera-1 s0) (installed camera-1 s0)"
+      " (at-slot camera-2 s1) (lay-first camera-2 s1) (installed camera-2 s1) (works camera-2)"
+      " (at-slot power-1 s2) (lay-first power-1 s2) (installed power-1 s2) (works power-1)"
+      " (free s3) (free-first s3) (seat camera-1 s0) (serves camera-1 imaging) (serves camera-2 imaging)"
+      " (serves power-1 power) " +
+          init + ") (:goal " + goal + ") (:metric minimize (total-time)))",
+      "problem.pddl", model.domain);
+  return model;
+}
+
+constexpr char kReplaced[] =
+    "(exists (?b - module ?s - socket ?r - role) (and (seat camera-1 ?s) (serves camera-1 ?r) (serves ?b ?r) "
+    "(works ?b) (not (= ?b camera-1)) (installed ?b ?s)))";
+constexpr char kConfigured[] =
+    "(forall (?r - role ?s - socket) (imply (needs survey ?r ?s) (exists (?m - module) (and (serves ?m ?r) "
+    "(works ?m) (installed ?m ?s)))))";
+
+// When the plan places camera-2 in s0; nothing: it does not.
+std::optional<double> placed_at(const Result& result) {
+  if (!result.plan) return std::nullopt;
+  for (const auto& activity : result.plan->activities)
+    if (activity.name == "place" && activity.arguments == std::vector<std::string>{"camera-2", "s0"})
+      return temporal::to_seconds(activity.start);
+  return std::nullopt;
+}
+
+// R55: a configuration by a time. What is placed for the goal is placed in its window; what is parked is not bound by it.
+TEST(WindowsOfTheOrbiter, HoldForReplaceAndConfigure) {
+  OneForAll values;
+  for (const auto& [wish, window, goal] :
+       {std::tuple{"(to-replace camera-1)", "(replacing camera-1)", kReplaced},
+        std::tuple{"(to-configure survey) (needs survey imaging s0)", "(configuring survey)", kConfigured}}) {
+    const auto with = [&, wish = std::string(wish), window = std::string(window)](const std::string& when) {
+      std::string init = wish;
+      for (const char c : when) init += c == '*' ? window : std::string(1, c);
+      return testing::solved(orbiter(init, goal), values, {});
+    };
+    const auto soon = placed_at(with(" *"));
+    ASSERT_TRUE(soon) << goal;
+    const auto late = placed_at(with(" (at 1000 *) (at 1500 (not *))"));
+    ASSERT_TRUE(late) << goal;
+    EXPECT_GT(*soon, 100);
+    EXPECT_LT(*soon, 1000);
+    EXPECT_GE(*late, 1000);
+    EXPECT_LE(*late, 1500 - 60);
+    const Result closed = with(" * (at 100 (not *))");
+    EXPECT_EQ(closed.verdict, Verdict::unsolvable) << goal;
+  }
+}
+
+// R55: "works in slot s": a damaged module does not, wherever it is latched.
+TEST(WindowsOfTheOrbiter, ADamagedModuleIsInstalledNowhere) {
+  OneForAll values;
+  const std::string wanted = "(wanted camera-1 s3) (allowed camera-1 s3)";
+  const Result damaged =
+      testing::solved(orbiter(wanted, "(and (installed camera-1 s3) (works camera-1))"), values, {});
+  EXPECT_EQ(damaged.verdict, Verdict::unsolvable);
+  const Result mended = testing::solved(
+      orbiter(wanted + " (works camera-1)", "(and (installed camera-1 s3) (works camera-1))"), values, {});
+  EXPECT_EQ(mended.verdict, Verdict::solved);
+}
+
 // The arm holds one spare, and the slot for which it was meant is blocked; another module would do as well. Estimates
 // for either led to and fro between the two: 22,000 evaluations, and in a flight, seed 9138, more than the budget.
 TEST(GoalAlternativesOfTheOrbiter, AModuleIsReplacedWhicheverOfTwoDoesIt) {
@@ -97,7 +173,7 @@ TEST(GoalAlternativesOfTheOrbiter, AModuleIsReplacedWhicheverOfTwoDoesIt) {
     (:init
       (arm-at s3) (arm-first s3) (holding power-3) (held-first power-3) (loaded) (tool-ready) (array-ready) (sunlit)
       (at-slot power-1 s0) (lay-first power-1 s0) (installed power-1 s0) (works power-1)
-      (at-slot power-2 s1) (lay-first power-2 s1) (installed power-2 s1) (damaged power-2) (to-replace power-2)
+      (at-slot power-2 s1) (lay-first power-2 s1) (installed power-2 s1) (damaged power-2) (to-replace power-2) (replacing power-2)
       (works power-3) (free s6) (free-first s6) (free s8) (free-first s8) (free s11) (free-first s11)
       (seat power-1 s0) (seat power-2 s1)
       (serves power-1 power) (serves power-2 power) (serves power-3 power)

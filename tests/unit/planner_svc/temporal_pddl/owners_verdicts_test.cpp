@@ -18,7 +18,7 @@ FunctionUse use(const std::string& from, const std::string& to, FunctionOutcome 
 
 std::string words(const std::vector<FunctionUse>& uses) {
   const std::vector<engine::Object> objects{{"cliff", "location", {{"x", "190.000"}, {"y", "60"}}}};
-  return words_against({"(seen cliff)"}, {}, objects, uses);
+  return words_against({"(seen cliff)"}, {}, objects, uses).text;
 }
 
 TEST(OwnersVerdicts, NameThePlaceTheOwnerAndItsMap) {
@@ -29,6 +29,16 @@ TEST(OwnersVerdicts, NameThePlaceTheOwnerAndItsMap) {
       words({use("here", "cliff", FunctionOutcome::unreachable), use("b", "cliff", FunctionOutcome::value)}),
       "")
       << "there is a way from b";
+}
+
+// An arm that goes there, and cannot carry its load there.
+TEST(OwnersVerdicts, SpeakOfOneFunctionWhereAnotherHasAValue) {
+  FunctionUse carried = use("here", "cliff", FunctionOutcome::unknown);
+  carried.call.function = "carry_time";
+  EXPECT_THAT(
+      words({carried, use("here", "cliff", FunctionOutcome::value)}),
+      HasSubstr("no way to cliff (x=190 y=60) is known: pathplan_svc found none with the effort spent "
+                "(carry_time, model 3)"));
 }
 
 TEST(OwnersVerdicts, DoNotCallUnreachableWhatNobodyProved) {

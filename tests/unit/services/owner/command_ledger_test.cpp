@@ -34,11 +34,11 @@ TEST(CommandLedger, AKeyIsTakenOnceAndItsLastWordRepeated) {
   CommandLedger ledger = with_running();
   const Reception again = ledger.receive(request("a"), seconds(2));
   EXPECT_EQ(again.order, Order::nothing);
-  EXPECT_EQ(again.ack->word.stage, Stage::accepted);
+  EXPECT_EQ(again.ack->status.stage, Stage::accepted);
   const auto done = ledger.say(kA, {Stage::completed, "done"}, seconds(9));
   const Reception late = ledger.receive(request("a"), seconds(20));
   EXPECT_EQ(late.order, Order::nothing);
-  EXPECT_EQ(late.ack->word, done->word);
+  EXPECT_EQ(late.ack->status, done->status);
   EXPECT_EQ(late.ack->at, seconds(20));
 }
 
@@ -48,7 +48,7 @@ TEST(CommandLedger, WhatRepeatsACommandWithoutAWordWaitsForTheWord) {
   const Reception again = ledger.receive(request("a"), seconds(2));
   EXPECT_EQ(again.order, Order::nothing);
   EXPECT_FALSE(again.ack);
-  EXPECT_EQ(ledger.receive(request("a", Action::query), seconds(2)).ack->word.stage, Stage::accepted);
+  EXPECT_EQ(ledger.receive(request("a", Action::query), seconds(2)).ack->status.stage, Stage::accepted);
 }
 
 TEST(CommandLedger, AttemptsCommandersAndEpochsOfIssueMakeDifferentKeys) {
@@ -62,14 +62,14 @@ TEST(CommandLedger, AttemptsCommandersAndEpochsOfIssueMakeDifferentKeys) {
 
 TEST(CommandLedger, AQueryGetsTheLastWord) {
   CommandLedger ledger = with_running();
-  EXPECT_EQ(ledger.receive(request("a", Action::query), seconds(2)).ack->word.stage, Stage::accepted);
+  EXPECT_EQ(ledger.receive(request("a", Action::query), seconds(2)).ack->status.stage, Stage::accepted);
   ledger.say(kA, {Stage::failed, "jammed", "in hard rock"}, seconds(3));
   const Ack ack = *ledger.receive(request("a", Action::query), seconds(4)).ack;
-  EXPECT_EQ(ack.word.stage, Stage::failed);
-  EXPECT_EQ(ack.word.code, "jammed");
+  EXPECT_EQ(ack.status.stage, Stage::failed);
+  EXPECT_EQ(ack.status.code, "jammed");
   const Ack unknown = *ledger.receive(request("b", Action::query), seconds(4)).ack;
-  EXPECT_EQ(unknown.word.stage, Stage::unknown);
-  EXPECT_EQ(unknown.word.code, "unknown-key");
+  EXPECT_EQ(unknown.status.stage, Stage::unknown);
+  EXPECT_EQ(unknown.status.code, "unknown-key");
 }
 
 TEST(CommandLedger, EpochsAreCountedByCommander) {
@@ -77,11 +77,11 @@ TEST(CommandLedger, EpochsAreCountedByCommander) {
   EXPECT_EQ(ledger.receive(request("a", Action::execute, 5, "first"), seconds(1)).order, Order::carry_out);
   EXPECT_EQ(ledger.receive(request("b", Action::execute, 1, "second"), seconds(1)).order, Order::carry_out);
   const Ack refused = *ledger.receive(request("c", Action::execute, 4, "first"), seconds(2)).ack;
-  EXPECT_EQ(refused.word.stage, Stage::rejected);
-  EXPECT_EQ(refused.word.code, "old-epoch");
+  EXPECT_EQ(refused.status.stage, Stage::rejected);
+  EXPECT_EQ(refused.status.code, "old-epoch");
   EXPECT_TRUE(refused.refused_epoch);
   EXPECT_EQ(refused.newest_epoch, 5u);
-  EXPECT_THAT(refused.word.reason, HasSubstr("epoch 4 is over"));
+  EXPECT_THAT(refused.status.reason, HasSubstr("epoch 4 is over"));
   EXPECT_EQ(ledger.receive(request("c", Action::execute, 5, "first"), seconds(3)).order, Order::carry_out)
       << "a refused request does not take the key";
   EXPECT_EQ(ledger.receive(request("d", Action::execute, 1, "second"), seconds(3)).order, Order::carry_out);
@@ -107,7 +107,7 @@ TEST(CommandLedger, AnOlderEpochMayNeitherAskNorCancel) {
   for (const Action action : {Action::query, Action::cancel}) {
     const Reception old = ledger.receive(request("a", action, 2), seconds(3));
     EXPECT_EQ(old.order, Order::nothing);
-    EXPECT_EQ(old.ack->word.code, "old-epoch");
+    EXPECT_EQ(old.ack->status.code, "old-epoch");
   }
 }
 
@@ -119,9 +119,9 @@ Request of_process(Request one, std::uint32_t incarnation, std::uint64_t number)
 
 TEST(CommandLedger, NoQueryRaisesAnEpoch) {
   CommandLedger ledger = with_running();
-  EXPECT_EQ(ledger.receive(request("a", Action::query, 1'000'000), seconds(2)).ack->word.stage,
+  EXPECT_EQ(ledger.receive(request("a", Action::query, 1'000'000), seconds(2)).ack->status.stage,
             Stage::accepted);
-  EXPECT_EQ(ledger.receive(request("z", Action::cancel, 500), seconds(2)).ack->word.stage, Stage::unknown)
+  EXPECT_EQ(ledger.receive(request("z", Action::cancel, 500), seconds(2)).ack->status.stage, Stage::unknown)
       << "nothing was cancelled";
   EXPECT_EQ(ledger.receive(request("b"), seconds(3)).order, Order::carry_out)
       << "epoch 1 is still the newest";
@@ -130,7 +130,7 @@ TEST(CommandLedger, NoQueryRaisesAnEpoch) {
 TEST(CommandLedger, ACommandTakesNoWideStep) {
   CommandLedger ledger = with_running();
   const Reception wide = ledger.receive(request("b", Action::execute, 1 + kEpochJump + 1), seconds(2));
-  EXPECT_EQ(wide.ack->word.code, "epoch-jump");
+  EXPECT_EQ(wide.ack->status.code, "epoch-jump");
   EXPECT_TRUE(wide.ack->refused_epoch);
   EXPECT_EQ(wide.ack->newest_epoch, 1u);
   EXPECT_EQ(wide.notice->code, "command.epoch_jump");
@@ -146,7 +146,7 @@ TEST(CommandLedger, ACommandTakesNoWideStep) {
 
 TEST(CommandLedger, AnOwnerThatKnowsNobodyTakesNoWideStepEither) {
   CommandLedger ledger;
-  EXPECT_EQ(ledger.receive(request("a", Action::execute, 1'000'000), seconds(1)).ack->word.code,
+  EXPECT_EQ(ledger.receive(request("a", Action::execute, 1'000'000), seconds(1)).ack->status.code,
             "epoch-jump");
   EXPECT_EQ(ledger.receive(request("a", Action::execute, kEpochJump), seconds(1)).order, Order::carry_out);
 }
@@ -159,8 +159,8 @@ TEST(CommandLedger, AnEpochBelongsToOneProcess) {
   for (const Request& other : {of_process(request("a"), 2, 1), of_process(request("a"), 1, 3)}) {
     const Reception refused = ledger.receive(other, seconds(3));
     EXPECT_EQ(refused.order, Order::nothing);
-    EXPECT_EQ(refused.ack->word.code, "doubled-epoch")
-        << "never the last word on what another process commanded";
+    EXPECT_EQ(refused.ack->status.code, "doubled-epoch")
+        << "never the last status on what another process commanded";
     EXPECT_TRUE(refused.ack->refused_epoch);
     EXPECT_EQ(refused.ack->newest_epoch, 1u);
     EXPECT_EQ(refused.notice->code, "commander.doubled");
@@ -214,7 +214,7 @@ TEST(CommandLedger, AFallbackIsTheLeaseHoldersOrAnybodysWhileThereIsNone) {
   const Reception stale = ledger.receive(fallback("3", 6, "exec"), seconds(3));
   EXPECT_TRUE(stale.ack->refused_epoch);
   const Reception foreign = ledger.receive(fallback("4", 8, "stranger"), seconds(3));
-  EXPECT_EQ(foreign.ack->word.code, "not-leased");
+  EXPECT_EQ(foreign.ack->status.code, "not-leased");
   EXPECT_EQ(foreign.notice->code, "command.foreign");
   ledger.release("exec");
   const Reception taken = ledger.receive(fallback("5", 1, "exec"), seconds(4));
@@ -227,7 +227,7 @@ TEST(CommandLedger, CommandersAreBounded) {
   CommandLedger ledger;
   for (std::size_t i = 0; i < CommandLedger::kCommanders; ++i)
     ledger.receive(request("a" + std::to_string(i), Action::execute, 1, "c" + std::to_string(i)), seconds(1));
-  EXPECT_EQ(ledger.receive(request("b", Action::execute, 1, "more"), seconds(2)).ack->word.code,
+  EXPECT_EQ(ledger.receive(request("b", Action::execute, 1, "more"), seconds(2)).ack->status.code,
             "too-many-commanders");
   EXPECT_EQ(ledger.receive(stop("s", 1, "more"), seconds(2)).order, Order::carry_out);
   EXPECT_EQ(ledger.receive(request("c", Action::execute, 1, "c1"), seconds(2)).order, Order::carry_out);
@@ -241,11 +241,11 @@ TEST(CommandLedger, WhatWasKeptIsKnownToTheNextProcess) {
   CommandLedger after;
   for (const LedgerEntry& entry : before.take_entries()) after.restore(entry);
   after.end_restored();
-  EXPECT_EQ(after.receive(request("b", Action::execute, 5), seconds(9)).ack->word,
-            before.answer(other.key, {}).word);
+  EXPECT_EQ(after.receive(request("b", Action::execute, 5), seconds(9)).ack->status,
+            before.answer(other.key, {}).status);
   const Reception running = after.receive(request("a", Action::query, 5), seconds(9));
-  EXPECT_EQ(running.ack->word.code, "owner-restarted");
-  EXPECT_EQ(running.ack->word.stage, Stage::failed);
+  EXPECT_EQ(running.ack->status.code, "owner-restarted");
+  EXPECT_EQ(running.ack->status.stage, Stage::failed);
   EXPECT_EQ(after.receive(request("a", Action::execute, 5), seconds(9)).order, Order::nothing) << "done once";
   EXPECT_TRUE(after.receive(request("c", Action::execute, 4), seconds(9)).ack->refused_epoch);
   EXPECT_TRUE(before.take_entries().empty());
@@ -265,14 +265,14 @@ TEST(CommandLedger, AnOwnerGoesOnWithWhatItHadNotEndedIfItTookNothingElse) {
   CommandLedger after = next({});
   EXPECT_TRUE(after.resume(running, seconds(1)));
   after.end_restored();
-  EXPECT_EQ(after.receive(request("a", Action::query, 5), seconds(9)).ack->word.stage, Stage::accepted);
+  EXPECT_EQ(after.receive(request("a", Action::query, 5), seconds(9)).ack->status.stage, Stage::accepted);
   EXPECT_EQ(after.open(running.robot, running.subsystem).size(), 1u) << "a stop finds it";
   EXPECT_TRUE(after.repair(running.key, "again", seconds(19)));
   EXPECT_FALSE(after.repair(running.key, "again", seconds(20))) << "its latest end holds";
-  EXPECT_EQ(after.say(running.key, {Stage::completed}, seconds(9))->word.results.duration, seconds(8));
+  EXPECT_EQ(after.say(running.key, {Stage::completed}, seconds(9))->status.results.duration, seconds(8));
 
   EXPECT_FALSE(next({}).resume(request("b", Action::execute, 5), seconds(1))) << "it was never taken";
-  EXPECT_FALSE(next({{running.key, "", 0, Word{Stage::completed}}}).resume(running, seconds(1)))
+  EXPECT_FALSE(next({{running.key, "", 0, CommandStatus{Stage::completed}}}).resume(running, seconds(1)))
       << "it has ended";
   EXPECT_FALSE(next({{{"s", 1, running.key.commander, 5}, "", 0}}).resume(running, seconds(1)))
       << "that may have been a stop";
@@ -287,11 +287,12 @@ TEST(CommandLedger, ACancelIsAnOrderFirstAndThenAnOutcome) {
   EXPECT_EQ(second.order, Order::nothing) << "it is being broken off";
   EXPECT_FALSE(second.ack);
   const Ack ended = *ledger.say(kA, {Stage::cancelled, "cancelled"}, seconds(4));
-  EXPECT_EQ(ended.word.results.duration, seconds(3));
+  EXPECT_EQ(ended.status.results.duration, seconds(3));
   const Ack late = *ledger.receive(request("a", Action::cancel), seconds(5)).ack;
-  EXPECT_EQ(late.word.stage, Stage::cancel_failed);
-  EXPECT_EQ(late.word.code, "already-ended");
-  EXPECT_EQ(ledger.answer(kA, seconds(6)).word.stage, Stage::cancelled) << "that is no word on the activity";
+  EXPECT_EQ(late.status.stage, Stage::cancel_failed);
+  EXPECT_EQ(late.status.code, "already-ended");
+  EXPECT_EQ(ledger.answer(kA, seconds(6)).status.stage, Stage::cancelled)
+      << "that is no word on the activity";
 }
 
 TEST(CommandLedger, ACancelThatCannotBeLetsTheCommandRun) {
@@ -299,25 +300,25 @@ TEST(CommandLedger, ACancelThatCannotBeLetsTheCommandRun) {
   EXPECT_FALSE(ledger.refuse_cancel(kA, "nobody asked", seconds(2)));
   ledger.receive(request("a", Action::cancel), seconds(2));
   const Ack refused = *ledger.refuse_cancel(kA, "the drill is too deep", seconds(3));
-  EXPECT_EQ(refused.word.stage, Stage::cancel_failed);
-  EXPECT_EQ(refused.word.code, "cannot-cancel");
-  EXPECT_EQ(ledger.answer(kA, seconds(4)).word.stage, Stage::accepted);
+  EXPECT_EQ(refused.status.stage, Stage::cancel_failed);
+  EXPECT_EQ(refused.status.code, "cannot-cancel");
+  EXPECT_EQ(ledger.answer(kA, seconds(4)).status.stage, Stage::accepted);
   EXPECT_EQ(ledger.receive(request("a", Action::cancel), seconds(5)).order, Order::break_off) << "once more";
 }
 
 TEST(CommandLedger, WhatEndsWhileItIsCancelledHasEndedSo) {
   CommandLedger ledger = with_running();
   ledger.receive(request("a", Action::cancel), seconds(2));
-  EXPECT_EQ(ledger.say(kA, {Stage::completed, "done"}, seconds(3))->word.stage, Stage::completed);
+  EXPECT_EQ(ledger.say(kA, {Stage::completed, "done"}, seconds(3))->status.stage, Stage::completed);
   EXPECT_FALSE(ledger.say(kA, {Stage::cancelled, "cancelled"}, seconds(4)));
-  EXPECT_EQ(ledger.answer(kA, seconds(5)).word.stage, Stage::completed);
+  EXPECT_EQ(ledger.answer(kA, seconds(5)).status.stage, Stage::completed);
 }
 
 TEST(CommandLedger, ResultsStayWithTheLastWord) {
   CommandLedger ledger = with_running();
   const Results results{seconds(2), 30, {{"depth", 0.3}}};
-  EXPECT_EQ(ledger.say(kA, {Stage::completed, "done", "", results}, seconds(9))->word.results, results);
-  EXPECT_EQ(ledger.answer(kA, seconds(10)).word.results, results);
+  EXPECT_EQ(ledger.say(kA, {Stage::completed, "done", "", results}, seconds(9))->status.results, results);
+  EXPECT_EQ(ledger.answer(kA, seconds(10)).status.results, results);
 }
 
 TEST(CommandLedger, WordsOnUnknownCommandsAndAnswersAreNoWords) {
@@ -332,13 +333,13 @@ TEST(CommandLedger, ARepairInTimeIsInvisibleInTheEnd) {
   CommandLedger ledger = with_running(seconds(100));
   EXPECT_FALSE(ledger.next_overrun());
   const Ack told = *ledger.repair(kA, "it tries again", seconds(40));
-  EXPECT_EQ(told.word.stage, Stage::accepted);
-  EXPECT_EQ(told.word.code, "repairing");
+  EXPECT_EQ(told.status.stage, Stage::accepted);
+  EXPECT_EQ(told.status.code, "repairing");
   EXPECT_EQ(ledger.next_overrun(), seconds(100) + temporal::Time{1});
   EXPECT_THAT(ledger.take_overruns(seconds(100)), testing::IsEmpty()) << "it may end then";
   const Ack done = *ledger.say(kA, {Stage::completed, "done"}, seconds(80));
-  EXPECT_EQ(done.word.code, "done");
-  EXPECT_EQ(done.word.results.duration, seconds(79)) << "the whole time, the repair with it";
+  EXPECT_EQ(done.status.code, "done");
+  EXPECT_EQ(done.status.results.duration, seconds(79)) << "the whole time, the repair with it";
   EXPECT_FALSE(ledger.next_overrun());
   EXPECT_THAT(ledger.take_overruns(seconds(200)), testing::IsEmpty());
 }

@@ -2,7 +2,6 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -208,7 +207,7 @@ class Stubborn final : public Driver {
     server.say(request.key, {Stage::accepted});
     repaired = server.repair(request.key, "at once");
   }
-  void break_off(const CommandKey& key, const Word& why) override {
+  void break_off(const CommandKey& key, const CommandStatus& why) override {
     if (why.stage == Stage::cancelled) {
       server.refuse_cancel(key, "it never ends");
     } else {

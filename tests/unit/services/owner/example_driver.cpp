@@ -34,7 +34,7 @@ class Drill final : public services::Service, private owner::Driver {
       timer_ = node_.after(40s, [this] { bored(); });
     }
   }
-  void break_off(const owner::CommandKey&, const owner::Word& why) override {
+  void break_off(const owner::CommandKey&, const owner::CommandStatus& why) override {
     node_.cancel(timer_);
     rest(why);
   }
@@ -47,9 +47,9 @@ class Drill final : public services::Service, private owner::Driver {
       rest({owner::Stage::failed, "jammed", "the rock is hard, and no time is left"});
     }
   }
-  void rest(const owner::Word& last) {
+  void rest(const owner::CommandStatus& last) {
     report("idle");
-    commands_.say(*std::exchange(running_, std::nullopt), last);  // results come with the last word
+    commands_.say(*std::exchange(running_, std::nullopt), last);  // results come with the last status
   }
   void report(const std::string& state) {
     v1::Observation seen;

@@ -6,6 +6,8 @@
 
 #include <fstream>
 
+#include "tests/unit/core/durable/sync_record.hpp"
+
 namespace roci::services::owner {
 namespace {
 
@@ -22,12 +24,12 @@ class LedgerFileTest : public testing::Test {
       {"p1.1-drive", 2, "exec_svc", 3},
       "",
       0,
-      Word{Stage::completed,
-           "done",
-           "at \"wp-2\"\n",
-           {temporal::seconds(7),
-            2.5,
-            {{"ok", true}, {"n", 0.5}, {"at", temporal::state("idle-at", {"wp-2"})}, {"no", {}}}}}};
+      CommandStatus{Stage::completed,
+                    "done",
+                    "at \"wp-2\"\n",
+                    {temporal::seconds(7),
+                     2.5,
+                     {{"ok", true}, {"n", 0.5}, {"at", temporal::state("idle-at", {"wp-2"})}, {"no", {}}}}}};
 };
 
 TEST_F(LedgerFileTest, GivesBackWhatWasAppended) {
@@ -56,6 +58,17 @@ TEST_F(LedgerFileTest, ALineThatWasCutShortOrIsNoEntryIsLeftOut) {
   LedgerFile file(path);
   file.append(ended);
   EXPECT_THAT(file.read(), ElementsAre(taken, ended));
+}
+
+// After a loss of power the folder could else have the old file, without what was appended to the new one.
+TEST_F(LedgerFileTest, BegunAnewItIsOnTheDiskUnderItsName) {
+  LedgerFile file(path);
+  file.append(taken);
+  durable::synced().clear();
+  file.replace({ended});
+  EXPECT_THAT(durable::synced(), ElementsAre(path.string() + ".new", path.parent_path().string()));
+  file.append(taken);
+  EXPECT_THAT(LedgerFile(path).read(), ElementsAre(ended, taken));
 }
 
 TEST_F(LedgerFileTest, AFolderIsNoFile) {

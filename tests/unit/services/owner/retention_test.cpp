@@ -51,15 +51,16 @@ void expect_none_taken_again(CommandLedger& ledger) {
       const Reception again = ledger.receive(drive(i, plan_of(i), action), seconds(3));
       ASSERT_EQ(again.order, Order::nothing) << i;
       ASSERT_TRUE(again.ack);
-      ASSERT_NE(again.ack->word.stage, Stage::unknown) << "its commander would send it again";
-      const bool is_old = again.ack->word.code == "forgotten";
+      ASSERT_NE(again.ack->status.stage, Stage::unknown) << "its commander would send it again";
+      const bool is_old = again.ack->status.code == "forgotten";
       if (is_old) {
-        EXPECT_EQ(again.ack->word.stage, Stage::failed);
+        EXPECT_EQ(again.ack->status.stage, Stage::failed);
       }
       forgotten += is_old;
     }
     if (i + Retention::kKept >= kMany) {
-      EXPECT_EQ(ledger.receive(drive(i, plan_of(i), Action::query), seconds(3)).ack->word.code, "done") << i;
+      EXPECT_EQ(ledger.receive(drive(i, plan_of(i), Action::query), seconds(3)).ack->status.code, "done")
+          << i;
     }
   }
   EXPECT_GT(forgotten, kMany);
@@ -87,15 +88,33 @@ TEST(Retention, TheFileKeepsWhatIsForgotten) {
   expect_none_taken_again(ledger);
   Request old = drive(kMany, kPlans);
   old.epoch = 0;
-  EXPECT_EQ(ledger.receive(old, seconds(3)).ack->word.code, "old-epoch")
+  EXPECT_EQ(ledger.receive(old, seconds(3)).ack->status.code, "old-epoch")
       << "epochs outlive the file's beginning anew";
 }
 
 TEST(Retention, APlanThatRunsForgetsNothing) {
   CommandLedger ledger;
   for (std::size_t i = 0; i < kMany; ++i) fly(ledger, drive(i, 1));
-  EXPECT_EQ(ledger.receive(drive(0, 1, Action::query), seconds(3)).ack->word.code, "done");
+  EXPECT_EQ(ledger.receive(drive(0, 1, Action::query), seconds(3)).ack->status.code, "done");
   EXPECT_EQ(ledger.receive(drive(0, 1), seconds(3)).order, Order::nothing);
+}
+
+// Whoever knows the run may stop the robot as often as he likes, under a new key each time.
+TEST(Retention, WhatTellsNoPlanIsBoundedToo) {
+  constexpr std::size_t kStops = 5 * Retention::kWithoutPlan;
+  Retention retention;
+  std::vector<CommandKey> forgotten;
+  for (std::size_t i = 0; i < kStops; ++i) {
+    const CommandKey key{"s" + std::to_string(i), 1, "stranger", 0};
+    retention.taken(key, 0);
+    retention.ended(key, 0);
+    for (CommandKey& old : retention.take_due()) forgotten.push_back(std::move(old));
+    ASSERT_LE(retention.ended().size(), 2 * Retention::kWithoutPlan);
+    ASSERT_GE(retention.ended().size(), std::min(i + 1, Retention::kWithoutPlan));
+  }
+  EXPECT_EQ(forgotten.size() + retention.ended().size(), kStops);
+  EXPECT_EQ(forgotten.front().activity, "s0");
+  EXPECT_FALSE(retention.forgotten({"new", 1, "stranger", 0}, 0)) << "a new one is not taken for an old one";
 }
 
 TEST(Retention, ALaterEpochBeginsItsPlansAnew) {
@@ -112,7 +131,7 @@ TEST(Retention, WhatRunsIsNeverForgotten) {
   ASSERT_TRUE(ledger.say(first.key, {Stage::accepted}, seconds(1)));
   for (std::size_t i = 0; i < kMany; ++i) fly(ledger, drive(i, plan_of(i)));
   EXPECT_TRUE(ledger.say(first.key, {Stage::completed, "done"}, seconds(9)));
-  EXPECT_EQ(ledger.receive(drive(kMany + 1, 1, Action::query), seconds(9)).ack->word.code, "done");
+  EXPECT_EQ(ledger.receive(drive(kMany + 1, 1, Action::query), seconds(9)).ack->status.code, "done");
 }
 
 TEST(Retention, AStopIsObeyedHoweverOldItsKeySeems) {
@@ -124,7 +143,7 @@ TEST(Retention, AStopIsObeyedHoweverOldItsKeySeems) {
   Request fallback = stop;
   fallback.key.activity = "fallback.0.1.nav";
   fallback.command = "stow";
-  EXPECT_EQ(ledger.receive(fallback, seconds(3)).ack->word.code, "forgotten");
+  EXPECT_EQ(ledger.receive(fallback, seconds(3)).ack->status.code, "forgotten");
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// docs/dds.md has one table of all topics. It is made here, from services/topics.hpp, the rights of topic_rights.hpp
-// and the keys of idl/, and compared with the page: a line that differs is printed as it should be.
+// docs/dds.md has one table of all topics. It is made here, from services/topics/topics.hpp, the rights of
+// topic_rights.hpp and the keys of idl/, and compared with the page: a line that differs is printed as it should be.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "services/security/topic_rights.hpp"
-#include "services/topics.hpp"
+#include "services/topics/topics.hpp"
 
 namespace roci::services::security {
 namespace {
@@ -83,7 +83,7 @@ std::string words(const std::set<Role>& roles) {
 class Table {
  public:
   template <class T>
-  void add(const Topic<T>& topic) {
+  void add(const topics::Topic<T>& topic) {
     const std::string type = std::string(topic.type_name).substr(std::string("roci::v1::").size());
     const auto rights = std::ranges::find(topic_rights(), topic.name, &TopicRights::topic);
     const std::string& key = keys_.at(type);
@@ -117,11 +117,11 @@ TEST(TopicTable, OfThePageIsTheOneOfTheCode) {
   const std::vector<std::string> made = table_of(
       t::clock_ready, t::clock_step, t::clock_done, t::heartbeat, t::time_probe, t::exec_member,
       t::exec_journal, t::lease_request, t::lease_state, t::goal_hand_over, t::event, t::goal, t::goal_status,
-      t::command, t::command_ack, t::observation, t::data_product, t::hazard, t::plan, t::executed_plan, t::step_status,
-      t::mission_status, t::function_offer, t::order, t::order_status, t::decision, t::decision_answer,
-      t::decision_receipt, t::network_order, t::network_status, t::downlink_schedule, t::mission_outlook,
-      t::terrain_finding, t::map_patch, t::known_map, t::plan_delta, t::plan_receipt, t::call_cancel, t::plan_request,
-      t::function_call, t::path_request, t::arm_motion);
+      t::command, t::command_ack, t::observation, t::data_product, t::hazard, t::plan, t::executed_plan,
+      t::step_status, t::mission_status, t::function_offer, t::order, t::order_status, t::decision,
+      t::decision_answer, t::decision_receipt, t::network_order, t::network_status, t::downlink_schedule,
+      t::mission_outlook, t::terrain_finding, t::map_patch, t::known_map, t::plan_delta, t::plan_receipt,
+      t::call_cancel, t::plan_request, t::function_call, t::path_request, t::arm_motion);
   EXPECT_EQ(made.size(), topic_rights().size()) << "a topic of topics.hpp is missing in this test";
   std::vector<std::string> written;
   std::istringstream page(text_of(ROCI_SOURCE_DIR "/docs/dds.md"));

@@ -25,22 +25,23 @@ constexpr std::uint32_t kUserWriter = 0x00000102, kParticipants = 0x000100c2, kL
 const Bytes kPayload{0, 1, 0, 0, 1, 2, 3, 4};
 
 Message own() { return {kOwn, kEprosima}; }
-Verdict judge(const Message& message) { return examine(message.bytes()); }
+DatagramAdmission judge(const Message& message) { return examine(message.bytes()); }
 
 TEST(Guard, WhatVendorsSendPasses) {
-  EXPECT_EQ(judge(own().data(0, kUserWriter, 1, kData, {}, kPayload)), Verdict::pass);
+  EXPECT_EQ(judge(own().data(0, kUserWriter, 1, kData, {}, kPayload)), DatagramAdmission::pass);
   EXPECT_EQ(judge(own().data(0, kUserWriter, 1, kInlineQos, Parameters().add(0x70, Bytes(16)).list(), {})),
-            Verdict::pass);
-  EXPECT_EQ(judge(own().heartbeat(0, kUserWriter, 1, 0, 1)), Verdict::pass) << "nothing written yet";
-  EXPECT_EQ(judge(own().gap(0, kUserWriter, 1, 200, 32)), Verdict::pass);
-  EXPECT_EQ(judge(own().acknack(7, kUserWriter, 0, 0)), Verdict::pass)
+            DatagramAdmission::pass);
+  EXPECT_EQ(judge(own().heartbeat(0, kUserWriter, 1, 0, 1)), DatagramAdmission::pass)
+      << "nothing written yet";
+  EXPECT_EQ(judge(own().gap(0, kUserWriter, 1, 200, 32)), DatagramAdmission::pass);
+  EXPECT_EQ(judge(own().acknack(7, kUserWriter, 0, 0)), DatagramAdmission::pass)
       << "Fast DDS, before it knows the writer";
-  EXPECT_EQ(judge(own().fragment(0, kUserWriter, 1, 2, 1, 8, 12, Bytes(4))), Verdict::pass)
+  EXPECT_EQ(judge(own().fragment(0, kUserWriter, 1, 2, 1, 8, 12, Bytes(4))), DatagramAdmission::pass)
       << "the last one is short";
   EXPECT_EQ(
       judge(
           own().submessage(0x33, 0, Bytes(24)).submessage(0x30, 0, Bytes(64)).submessage(0x34, 0, Bytes(20))),
-      Verdict::pass)
+      DatagramAdmission::pass)
       << "encrypted";
 }
 
@@ -56,7 +57,7 @@ TEST(Guard, InASecureRunNothingButTheHandshakeIsPlain) {
   // How many bytes less than were sent; all: nothing is left to be read.
   const auto lost = [](const Message& message) {
     Bytes bytes = message.bytes();
-    EXPECT_EQ(examine(bytes), Verdict::pass);
+    EXPECT_EQ(examine(bytes), DatagramAdmission::pass);
     return bytes.size() - strip_plain_submessages(bytes);
   };
   const auto all = [](const Message& message) { return message.bytes().size(); };
@@ -140,15 +141,15 @@ TEST(Guard, InASecureRunTheHandshakePrecedesWhatItMakesReadable) {
 }
 
 TEST(Guard, LengthsOfWhatIsEncryptedFit) {
-  EXPECT_EQ(judge(own().submessage(0x33, 0, Bytes(16))), Verdict::cut);
+  EXPECT_EQ(judge(own().submessage(0x33, 0, Bytes(16))), DatagramAdmission::cut);
   Bytes lying = encrypted(8);
   lying[3] = 9;
-  EXPECT_EQ(judge(own().submessage(0x30, 0, lying)), Verdict::cut);
+  EXPECT_EQ(judge(own().submessage(0x30, 0, lying)), DatagramAdmission::cut);
   Bytes codes(40);
   codes[19] = 1;
-  EXPECT_EQ(judge(own().submessage(0x34, 0, codes)), Verdict::pass);
+  EXPECT_EQ(judge(own().submessage(0x34, 0, codes)), DatagramAdmission::pass);
   codes[19] = 2;
-  EXPECT_EQ(judge(own().submessage(0x34, 0, codes)), Verdict::cut);
+  EXPECT_EQ(judge(own().submessage(0x34, 0, codes)), DatagramAdmission::cut);
 }
 
 TEST(Identities, InASecureRunAPrefixNamesItsPortBehindTheCertificate) {
@@ -156,9 +157,10 @@ TEST(Identities, InASecureRunAPrefixNamesItsPortBehindTheCertificate) {
   const Source source{0x7f000001, 0x9c40}, other{0x7f000001, 0x9c41};
   GuidPrefix certified{0x80, 1, 2, 3, 4, 5, 0x9c, 0x40, 6, 7, 8, 9};
   const auto now = std::chrono::steady_clock::now();
-  EXPECT_EQ(identities.claim(certified, other, now), Verdict::taken_identity);
-  EXPECT_EQ(identities.claim(certified, source, now), Verdict::pass);
-  EXPECT_EQ(identities.claim({0x01, 0x0f, 2, 3, 4, 5, 0x9c, 0x40}, source, now), Verdict::taken_identity);
+  EXPECT_EQ(identities.claim(certified, other, now), DatagramAdmission::taken_identity);
+  EXPECT_EQ(identities.claim(certified, source, now), DatagramAdmission::pass);
+  EXPECT_EQ(identities.claim({0x01, 0x0f, 2, 3, 4, 5, 0x9c, 0x40}, source, now),
+            DatagramAdmission::taken_identity);
   EXPECT_TRUE(may_speak_for(certified, certified));
   GuidPrefix twin = certified, stranger = certified;
   twin[11] = 0;     // of the same process
@@ -168,23 +170,24 @@ TEST(Identities, InASecureRunAPrefixNamesItsPortBehindTheCertificate) {
 }
 
 TEST(Guard, EachKindOfDamageHasItsVerdict) {
-  EXPECT_EQ(examine(Bytes(19)), Verdict::no_rtps);
-  EXPECT_EQ(examine(Bytes(64)), Verdict::no_rtps);
+  EXPECT_EQ(examine(Bytes(19)), DatagramAdmission::no_rtps);
+  EXPECT_EQ(examine(Bytes(64)), DatagramAdmission::no_rtps);
   Bytes cut = own().heartbeat(0, kUserWriter, 1, 1, 1).bytes();
   cut.resize(cut.size() - 4);
-  EXPECT_EQ(examine(cut), Verdict::cut);
-  EXPECT_EQ(judge(own().submessage(0x07, 0, Bytes(24))), Verdict::cut) << "shorter than its kind";
-  EXPECT_EQ(judge(own().submessage(0x0f, 0, Bytes(24))), Verdict::unknown_submessage);
-  EXPECT_EQ(judge(own().submessage(0x44, 0, Bytes(24))), Verdict::unknown_submessage);
-  EXPECT_EQ(judge(own().heartbeat(0, kUserWriter, 0, 1, 1)), Verdict::bad_numbers);
-  EXPECT_EQ(judge(own().heartbeat(0, kUserWriter, 5, 3, 1)), Verdict::bad_numbers);
-  EXPECT_EQ(judge(own().gap(0, kUserWriter, 2, std::int64_t{1} << 30, 0)), Verdict::bad_numbers);
-  EXPECT_EQ(judge(own().acknack(7, kUserWriter, 1, 257)), Verdict::bad_numbers);
-  EXPECT_EQ(judge(own().data(0, kUserWriter, 0, kData, {}, kPayload)), Verdict::bad_numbers);
-  EXPECT_EQ(judge(own().data(0, kUserWriter, 1, kData | kKey, {}, kPayload)), Verdict::cut);
-  EXPECT_EQ(judge(own().data(0, kUserWriter, 1, kInlineQos | kData, {}, kPayload)), Verdict::bad_parameters);
+  EXPECT_EQ(examine(cut), DatagramAdmission::cut);
+  EXPECT_EQ(judge(own().submessage(0x07, 0, Bytes(24))), DatagramAdmission::cut) << "shorter than its kind";
+  EXPECT_EQ(judge(own().submessage(0x0f, 0, Bytes(24))), DatagramAdmission::unknown_submessage);
+  EXPECT_EQ(judge(own().submessage(0x44, 0, Bytes(24))), DatagramAdmission::unknown_submessage);
+  EXPECT_EQ(judge(own().heartbeat(0, kUserWriter, 0, 1, 1)), DatagramAdmission::bad_numbers);
+  EXPECT_EQ(judge(own().heartbeat(0, kUserWriter, 5, 3, 1)), DatagramAdmission::bad_numbers);
+  EXPECT_EQ(judge(own().gap(0, kUserWriter, 2, std::int64_t{1} << 30, 0)), DatagramAdmission::bad_numbers);
+  EXPECT_EQ(judge(own().acknack(7, kUserWriter, 1, 257)), DatagramAdmission::bad_numbers);
+  EXPECT_EQ(judge(own().data(0, kUserWriter, 0, kData, {}, kPayload)), DatagramAdmission::bad_numbers);
+  EXPECT_EQ(judge(own().data(0, kUserWriter, 1, kData | kKey, {}, kPayload)), DatagramAdmission::cut);
+  EXPECT_EQ(judge(own().data(0, kUserWriter, 1, kInlineQos | kData, {}, kPayload)),
+            DatagramAdmission::bad_parameters);
   EXPECT_EQ(judge(own().data(0, kUserWriter, 1, kInlineQos, Parameters().add(0x70, Bytes(8)).list(), {})),
-            Verdict::bad_parameters);
+            DatagramAdmission::bad_parameters);
 }
 
 TEST(Guard, FragmentsLieWithinTheirSampleAndAreThere) {
@@ -192,15 +195,16 @@ TEST(Guard, FragmentsLieWithinTheirSampleAndAreThere) {
                            std::size_t there) {
     return judge(own().fragment(0, kUserWriter, 1, first, count, size, sample, Bytes(there)));
   };
-  EXPECT_EQ(fragment(1, 2, 8, 16, 16), Verdict::pass);
-  EXPECT_EQ(fragment(1, 2, 8, 16, 8), Verdict::bad_fragment);
-  EXPECT_EQ(fragment(0, 1, 8, 16, 8), Verdict::bad_fragment);
-  EXPECT_EQ(fragment(1, 0, 8, 16, 8), Verdict::bad_fragment);
-  EXPECT_EQ(fragment(1, 1, 0, 16, 8), Verdict::bad_fragment);
-  EXPECT_EQ(fragment(3, 1, 8, 16, 8), Verdict::bad_fragment);
-  EXPECT_EQ(fragment(0xffffffff, 0xffff, 0xffff, 16, 8), Verdict::bad_fragment);
-  EXPECT_EQ(fragment(1, 1, 8, kMaxSampleBytes + 1, 8), Verdict::oversized);
-  EXPECT_EQ(judge(own().fragment(0, kParticipants, 1, 1, 1, 8, 16, Bytes(8))), Verdict::bad_fragment)
+  EXPECT_EQ(fragment(1, 2, 8, 16, 16), DatagramAdmission::pass);
+  EXPECT_EQ(fragment(1, 2, 8, 16, 8), DatagramAdmission::bad_fragment);
+  EXPECT_EQ(fragment(0, 1, 8, 16, 8), DatagramAdmission::bad_fragment);
+  EXPECT_EQ(fragment(1, 0, 8, 16, 8), DatagramAdmission::bad_fragment);
+  EXPECT_EQ(fragment(1, 1, 0, 16, 8), DatagramAdmission::bad_fragment);
+  EXPECT_EQ(fragment(3, 1, 8, 16, 8), DatagramAdmission::bad_fragment);
+  EXPECT_EQ(fragment(0xffffffff, 0xffff, 0xffff, 16, 8), DatagramAdmission::bad_fragment);
+  EXPECT_EQ(fragment(1, 1, 8, kMaxSampleBytes + 1, 8), DatagramAdmission::oversized);
+  EXPECT_EQ(judge(own().fragment(0, kParticipants, 1, 1, 1, 8, 16, Bytes(8))),
+            DatagramAdmission::bad_fragment)
       << "discovery comes in one piece";
 }
 
@@ -211,20 +215,20 @@ TEST(Guard, ASenderSpeaksInDiscoveryForItselfAlone) {
   const auto discovery = [](std::uint8_t flags, const Bytes& qos, const Bytes& payload) {
     return judge(own().data(0, kParticipants, 1, flags, qos, payload));
   };
-  EXPECT_EQ(discovery(kData, {}, told(kOwn)), Verdict::pass);
-  EXPECT_EQ(discovery(kInlineQos, hash(kOwn), {}), Verdict::pass);
-  EXPECT_EQ(discovery(kData, {}, told(kOther)), Verdict::speaks_for_another);
-  EXPECT_EQ(discovery(kKey, {}, told(kOther)), Verdict::speaks_for_another);
-  EXPECT_EQ(discovery(kInlineQos, hash(kOther), {}), Verdict::speaks_for_another);
-  EXPECT_EQ(discovery(kInlineQos | kData, hash(kOther), told(kOwn)), Verdict::speaks_for_another);
-  EXPECT_EQ(discovery(kKey, {}, Bytes(16, 1)), Verdict::bad_parameters) << "a bare GUID";
+  EXPECT_EQ(discovery(kData, {}, told(kOwn)), DatagramAdmission::pass);
+  EXPECT_EQ(discovery(kInlineQos, hash(kOwn), {}), DatagramAdmission::pass);
+  EXPECT_EQ(discovery(kData, {}, told(kOther)), DatagramAdmission::speaks_for_another);
+  EXPECT_EQ(discovery(kKey, {}, told(kOther)), DatagramAdmission::speaks_for_another);
+  EXPECT_EQ(discovery(kInlineQos, hash(kOther), {}), DatagramAdmission::speaks_for_another);
+  EXPECT_EQ(discovery(kInlineQos | kData, hash(kOther), told(kOwn)), DatagramAdmission::speaks_for_another);
+  EXPECT_EQ(discovery(kKey, {}, Bytes(16, 1)), DatagramAdmission::bad_parameters) << "a bare GUID";
   Bytes alive{0, 1, 0, 0};
   alive.insert(alive.end(), kOther.begin(), kOther.end());
   alive.resize(24);
-  EXPECT_EQ(judge(own().data(0, kLiveliness, 1, kData, {}, alive)), Verdict::speaks_for_another);
+  EXPECT_EQ(judge(own().data(0, kLiveliness, 1, kData, {}, alive)), DatagramAdmission::speaks_for_another);
   Bytes source(8);
   source.insert(source.end(), kOther.begin(), kOther.end());
-  EXPECT_EQ(judge(own().submessage(0x0c, 0, source)), Verdict::speaks_for_another);
+  EXPECT_EQ(judge(own().submessage(0x0c, 0, source)), DatagramAdmission::speaks_for_another);
 }
 
 TEST(Guard, ParticipantsOfOneCycloneProcessSpeakForEachOther) {
@@ -233,21 +237,23 @@ TEST(Guard, ParticipantsOfOneCycloneProcessSpeakForEachOther) {
     return judge(Message(first, kEclipse)
                      .data(0, kParticipants, 1, kData, {}, Parameters().add_guid(0x50, of, 0x1c1).sample()));
   };
-  EXPECT_EQ(says(second), Verdict::pass);
-  EXPECT_EQ(says(elsewhere), Verdict::speaks_for_another);
+  EXPECT_EQ(says(second), DatagramAdmission::pass);
+  EXPECT_EQ(says(elsewhere), DatagramAdmission::speaks_for_another);
 }
 
 TEST(Guard, DiscoveryWhoseTextsDoNotFitIsRefused) {
   const auto discovery = [](const Parameters& parameters) {
     return judge(own().data(0, kParticipants, 1, kData, {}, parameters.sample()));
   };
-  EXPECT_EQ(discovery(Parameters().add_string(5, "roci/goal").add_strings(0x29, {"a", "b"})), Verdict::pass);
-  EXPECT_EQ(discovery(Parameters().add(5, {0xff, 0xff, 0xff, 0x7f, 'a', 0, 0, 0})), Verdict::bad_parameters);
-  EXPECT_EQ(discovery(Parameters().add_u32(0x59, 0x40000000)), Verdict::bad_parameters);
+  EXPECT_EQ(discovery(Parameters().add_string(5, "roci/goal").add_strings(0x29, {"a", "b"})),
+            DatagramAdmission::pass);
+  EXPECT_EQ(discovery(Parameters().add(5, {0xff, 0xff, 0xff, 0x7f, 'a', 0, 0, 0})),
+            DatagramAdmission::bad_parameters);
+  EXPECT_EQ(discovery(Parameters().add_u32(0x59, 0x40000000)), DatagramAdmission::bad_parameters);
   EXPECT_EQ(discovery(Parameters().add(0x59, {1, 0, 0, 0, 4, 0, 0, 0, 'a', 'b', 'c', 0})),
-            Verdict::bad_parameters)
+            DatagramAdmission::bad_parameters)
       << "a property without its value";
-  EXPECT_EQ(discovery(Parameters().add(0x32, Bytes(20))), Verdict::bad_parameters);
+  EXPECT_EQ(discovery(Parameters().add(0x32, Bytes(20))), DatagramAdmission::bad_parameters);
 }
 
 TEST(Guard, VendorsOwnSubmessagesAreTakenOut) {
@@ -258,7 +264,7 @@ TEST(Guard, VendorsOwnSubmessagesAreTakenOut) {
                    .acknack(7, kUserWriter, 1, 0)
                    .submessage(0x80, 0, Bytes(56, 0xff))
                    .bytes();
-  ASSERT_EQ(examine(with), Verdict::pass);
+  ASSERT_EQ(examine(with), DatagramAdmission::pass);
   with.resize(strip_vendor_submessages(with));
   EXPECT_EQ(with, bare);
 }
@@ -269,7 +275,7 @@ TEST(Guard, AStrangerIsRefusedWhateverItSays) {
   EXPECT_EQ(guard.admit(message, Source{0x0a000001, 7400}), 0U);
   EXPECT_EQ(guard.admit(message, std::nullopt), 0U);
   EXPECT_EQ(guard.admit(message, Source{0x7f000001, 7400}), message.size());
-  EXPECT_EQ(guard.counts()[static_cast<std::size_t>(Verdict::stranger)], 2U);
+  EXPECT_EQ(guard.counts()[static_cast<std::size_t>(DatagramAdmission::stranger)], 2U);
 }
 
 TEST(Guard, WhereAVendorsXmlSaysWhoEverybodyIsTakenInButForDamage) {
@@ -285,10 +291,11 @@ constexpr Identities::Time kStart{};
 
 TEST(Identities, APrefixBelongsToWhoeverWasHeardWithItFirst) {
   Identities identities;
-  EXPECT_EQ(identities.claim(kOwn, {1, 10}, kStart), Verdict::pass);
-  EXPECT_EQ(identities.claim(kOwn, {1, 11}, kStart), Verdict::taken_identity);
-  EXPECT_EQ(identities.claim(kOwn, {2, 10}, kStart + std::chrono::hours(1)), Verdict::taken_identity);
-  EXPECT_EQ(identities.claim(kOwn, {1, 10}, kStart + std::chrono::hours(1)), Verdict::pass);
+  EXPECT_EQ(identities.claim(kOwn, {1, 10}, kStart), DatagramAdmission::pass);
+  EXPECT_EQ(identities.claim(kOwn, {1, 11}, kStart), DatagramAdmission::taken_identity);
+  EXPECT_EQ(identities.claim(kOwn, {2, 10}, kStart + std::chrono::hours(1)),
+            DatagramAdmission::taken_identity);
+  EXPECT_EQ(identities.claim(kOwn, {1, 10}, kStart + std::chrono::hours(1)), DatagramAdmission::pass);
 }
 
 TEST(Identities, AParticipantOfOursIsReadFromThePortThatItIsNamedAfterAlone) {
@@ -296,38 +303,40 @@ TEST(Identities, AParticipantOfOursIsReadFromThePortThatItIsNamedAfterAlone) {
   Prefix ours{};
   const auto start = prefix_start(40000);
   std::copy(start.begin(), start.end(), ours.begin());
-  EXPECT_EQ(identities.claim(ours, {1, 39999}, kStart), Verdict::taken_identity)
+  EXPECT_EQ(identities.claim(ours, {1, 39999}, kStart), DatagramAdmission::taken_identity)
       << "also when nobody was heard";
-  EXPECT_EQ(identities.claim(ours, {1, 40000}, kStart), Verdict::pass);
-  EXPECT_EQ(identities.claim(ours, {2, 40000}, kStart), Verdict::taken_identity);
+  EXPECT_EQ(identities.claim(ours, {1, 40000}, kStart), DatagramAdmission::pass);
+  EXPECT_EQ(identities.claim(ours, {2, 40000}, kStart), DatagramAdmission::taken_identity);
 }
 
 Prefix prefix(std::size_t i) { return {static_cast<std::uint8_t>(i), static_cast<std::uint8_t>(i >> 8)}; }
 
 TEST(Identities, ACrowdMakesNobodyForgotten) {
   Identities identities;
-  EXPECT_EQ(identities.claim(kOwn, {1, 10}, kStart), Verdict::pass);
+  EXPECT_EQ(identities.claim(kOwn, {1, 10}, kStart), DatagramAdmission::pass);
   std::size_t admitted = 0;
   for (std::size_t i = 0; i < 4 * Identities::kPerAddress; ++i) {
     const Source source{1, static_cast<std::uint16_t>(100 + i / 128)};
-    if (identities.claim(prefix(i), source, kStart) == Verdict::pass) ++admitted;
+    if (identities.claim(prefix(i), source, kStart) == DatagramAdmission::pass) ++admitted;
   }
   EXPECT_EQ(admitted, Identities::kPerAddress - 1);
-  EXPECT_EQ(identities.claim(kOther, {1, 99}, kStart), Verdict::crowd);
-  EXPECT_EQ(identities.claim(kOther, {2, 99}, kStart), Verdict::pass) << "another host";
-  EXPECT_EQ(identities.claim(kOwn, {1, 10}, kStart + std::chrono::seconds(9)), Verdict::pass);
-  EXPECT_EQ(identities.claim(kOther, {2, 99}, kStart + std::chrono::seconds(9)), Verdict::pass);
-  EXPECT_EQ(identities.claim(prefix(9999), {1, 99}, kStart + std::chrono::seconds(11)), Verdict::pass)
+  EXPECT_EQ(identities.claim(kOther, {1, 99}, kStart), DatagramAdmission::crowd);
+  EXPECT_EQ(identities.claim(kOther, {2, 99}, kStart), DatagramAdmission::pass) << "another host";
+  EXPECT_EQ(identities.claim(kOwn, {1, 10}, kStart + std::chrono::seconds(9)), DatagramAdmission::pass);
+  EXPECT_EQ(identities.claim(kOther, {2, 99}, kStart + std::chrono::seconds(9)), DatagramAdmission::pass);
+  EXPECT_EQ(identities.claim(prefix(9999), {1, 99}, kStart + std::chrono::seconds(11)),
+            DatagramAdmission::pass)
       << "the crowd is silent";
-  EXPECT_EQ(identities.claim(kOwn, {1, 11}, kStart + std::chrono::seconds(11)), Verdict::taken_identity);
+  EXPECT_EQ(identities.claim(kOwn, {1, 11}, kStart + std::chrono::seconds(11)),
+            DatagramAdmission::taken_identity);
 }
 
 TEST(Identities, OneSocketHasNotManyNames) {
   Identities identities;
   for (std::size_t i = 0; i < Identities::kPerSource; ++i)
-    EXPECT_EQ(identities.claim(prefix(i), {1, 10}, kStart), Verdict::pass);
-  EXPECT_EQ(identities.claim(kOther, {1, 10}, kStart), Verdict::crowd);
-  EXPECT_EQ(identities.claim(kOther, {1, 11}, kStart), Verdict::pass);
+    EXPECT_EQ(identities.claim(prefix(i), {1, 10}, kStart), DatagramAdmission::pass);
+  EXPECT_EQ(identities.claim(kOther, {1, 10}, kStart), DatagramAdmission::crowd);
+  EXPECT_EQ(identities.claim(kOther, {1, 11}, kStart), DatagramAdmission::pass);
 }
 
 }  // namespace

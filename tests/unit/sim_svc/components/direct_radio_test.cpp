@@ -96,7 +96,7 @@ struct Link : Flight {
     return out;
   }
   double number(const std::string& activity, const std::string& name) const {
-    return std::get<double>(last_ack(activity)->word.results.values.at(name));
+    return std::get<double>(last_ack(activity)->status.results.values.at(name));
   }
 
  private:
@@ -208,7 +208,7 @@ TEST(DirectRadio, AWindowThatClosesLosesWhatWasUnderWay) {
   run.send(seconds(4985), "d");
   run.advance(seconds(5100));
   EXPECT_EQ(run.code("d"), "contact-lost");
-  EXPECT_THAT(run.last_ack("d")->word.reason, HasSubstr("'b'"));
+  EXPECT_THAT(run.last_ack("d")->status.reason, HasSubstr("'b'"));
   EXPECT_EQ(run.time_of("d"), seconds(5000));
   EXPECT_EQ(run.ids(Fate::sent), (Ids{"a"})) << "what was sent stays sent";
   run.send(seconds(9100), "e");
@@ -332,7 +332,7 @@ TEST(DirectRadio, IsWarmedBeforeItWorksAndPaysForIt) {
   run.advance(seconds(40000));
   EXPECT_EQ(run.stage("p"), Stage::completed);
   EXPECT_NEAR(temporal::to_seconds(run.time_of("p")), 10 + warming_s + 300, 1e-3);
-  const double joules = run.last_ack("p")->word.results.energy_j.value();
+  const double joules = run.last_ack("p")->status.results.energy_j.value();
   EXPECT_NEAR(joules, warming_s * (100 + 10) + 300 * (60 + 60), 1)
       << "heater and electronics, then holding 220 K";
   const double later = last_number(run.said, "lander.heat.dish");

@@ -142,7 +142,7 @@ TEST(DriveOnGivenWay, AFaultyWayIsRefusedWithThePlace) {
     run.command(seconds(count), over(id, way));
     EXPECT_EQ(run.stage(id), Stage::failed);
     EXPECT_EQ(run.code(id), "bad-arguments");
-    EXPECT_THAT(run.last_ack(id)->word.reason, HasSubstr(why));
+    EXPECT_THAT(run.last_ack(id)->status.reason, HasSubstr(why));
   }
   run.command(seconds(10), over("fits", long_way.substr(6)));
   EXPECT_EQ(run.stage("fits"), Stage::completed);
@@ -152,7 +152,7 @@ TEST(DriveOnGivenWay, StandsInForXAndYAlone) {
   Flight run(flat_setup());
   run.command(seconds(1), execute("a", "nav", "drive", {{"way", "20,20;30,20"}}));
   EXPECT_EQ(run.stage("a"), Stage::rejected);
-  EXPECT_THAT(run.last_ack("a")->word.reason, HasSubstr("needs the argument 'to'"));
+  EXPECT_THAT(run.last_ack("a")->status.reason, HasSubstr("needs the argument 'to'"));
   run.command(seconds(2), execute("b", "nav", "turn", {{"way", "20,20;30,20"}}));
   EXPECT_EQ(run.stage("b"), Stage::rejected);
 }

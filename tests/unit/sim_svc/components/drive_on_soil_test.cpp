@@ -83,7 +83,7 @@ TEST(DriveOnSoil, WhatIsDugInSaysSoAndDrivesNoMore) {
   run.advance(seconds(400));
   EXPECT_EQ(run.code("d"), "bogged-down");
   EXPECT_EQ(run.stage("d"), Stage::failed);
-  EXPECT_NEAR(std::get<double>(run.last_ack("d")->word.results.values.at("sinkage")), 0.15, 1e-9);
+  EXPECT_NEAR(std::get<double>(run.last_ack("d")->status.results.values.at("sinkage")), 0.15, 1e-9);
   run.command(seconds(500), drive_to("e", "back", 20, 20));
   EXPECT_EQ(run.code("e"), "bogged-down");
   EXPECT_EQ(run.stage("e"), Stage::failed);

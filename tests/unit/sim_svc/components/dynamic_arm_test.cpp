@@ -38,7 +38,7 @@ TEST(DynamicArm, MovesAndRestsAtThePose) {
   EXPECT_LT(took, 12);
   EXPECT_EQ(run.state("walker.arm"), (State{"idle-pose", {"s0"}}));
   EXPECT_NEAR(last_number(run.said, "walker.arm.q2"), 0.8, 0.006);
-  EXPECT_GT(run.last_ack("move1")->word.results.energy_j, 15 * took);
+  EXPECT_GT(run.last_ack("move1")->status.results.energy_j, 15 * took);
 }
 
 TEST(DynamicArm, AsksForAMotionWithTheLoadThatItBelievesToHold) {
@@ -74,7 +74,7 @@ TEST(DynamicArm, AJointThatDegradesMakesMovesSlowerAndFailsAtLast) {
   run.disturb(run.now, ComponentMishap{"walker", JointWear{"elbow", 1.2, 0}});
   run.move("s0", "home");
   EXPECT_EQ(run.code("move4"), "arm-stalled");
-  EXPECT_THAT(run.last_ack("move4")->word.reason, testing::HasSubstr("joint 'elbow'"));
+  EXPECT_THAT(run.last_ack("move4")->status.reason, testing::HasSubstr("joint 'elbow'"));
   EXPECT_EQ(run.state("walker.arm"), (State{"idle-pose", {"arm-here"}}));
 }
 

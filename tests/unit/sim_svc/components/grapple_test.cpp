@@ -86,12 +86,12 @@ TEST(Grapple, ALatchThatNeedsASecondTryRepairsItselfInTime) {
   run.advance(seconds(begun + 61));
   EXPECT_EQ(run.stage("p"), Stage::accepted);
   EXPECT_EQ(run.code("p"), "repairing");
-  EXPECT_THAT(run.last_ack("p")->word.reason, testing::HasSubstr("the latch of 's0' did not close"));
+  EXPECT_THAT(run.last_ack("p")->status.reason, testing::HasSubstr("the latch of 's0' did not close"));
   EXPECT_EQ(run.state("walker.grapple"), (State{"working", {}}));
   run.advance(seconds(begun + 200));
   EXPECT_EQ(run.code("p"), "done");
   EXPECT_EQ(run.time_of("p"), seconds(begun + 90));
-  EXPECT_EQ(std::get<double>(run.last_ack("p")->word.results.values.at("tries")), 2);
+  EXPECT_EQ(std::get<double>(run.last_ack("p")->status.results.values.at("tries")), 2);
 }
 
 TEST(Grapple, ALatchThatCannotCloseInTimeFailsAndTheModuleRests) {
@@ -195,7 +195,7 @@ TEST(Grapple, OutlivesItsProcess) {
   EXPECT_EQ(next.done("localize", "s0"), "done");
   next.work(next.now, "p", "place", "s0", "m0");
   next.advance(next.now + seconds(200));
-  EXPECT_EQ(std::get<double>(next.last_ack("p")->word.results.values.at("tries")), 2);
+  EXPECT_EQ(std::get<double>(next.last_ack("p")->status.results.values.at("tries")), 2);
 }
 
 }  // namespace

@@ -73,7 +73,7 @@ services::owner::Request look(const std::string& activity, const std::string& wh
 }
 
 double result(const Flight& run, const std::string& activity, const std::string& name) {
-  return std::get<double>(run.last_ack(activity)->word.results.values.at(name));
+  return std::get<double>(run.last_ack(activity)->status.results.values.at(name));
 }
 
 TEST(MarkerCamera, TellsWhereTheOtherStands) {
@@ -93,7 +93,7 @@ TEST(MarkerCamera, SaysSoWhereItIsNotSeen) {
   run.command(seconds(1), look("l"));
   run.advance(seconds(7));
   EXPECT_EQ(run.code("l"), "marker-not-seen");
-  EXPECT_TRUE(run.last_ack("l")->word.results.values.empty());
+  EXPECT_TRUE(run.last_ack("l")->status.results.values.empty());
   run.command(seconds(8), look("m", "third"));
   EXPECT_EQ(run.code("m"), "unknown-robot");
   run.command(seconds(9), look("n", "rover"));
@@ -158,7 +158,7 @@ TEST(DriveTurn, TurnsInPlaceTowardsAPoint) {
   EXPECT_NEAR(last_number(run.said, "rover.heading"), kPi / 2, 1e-3);
   EXPECT_EQ(last_number(run.said, "rover.x"), 20);
   EXPECT_EQ(run.state("rover.nav"), (temporal::State{"idle-at", {"here"}}));
-  EXPECT_NEAR(run.last_ack("t")->word.results.energy_j.value(), 55 * kPi / 2 / 0.19, 6);
+  EXPECT_NEAR(run.last_ack("t")->status.results.energy_j.value(), 55 * kPi / 2 / 0.19, 6);
 }
 
 TEST(DriveTurn, ItStandsWhereItStoodUnderTheSameName) {

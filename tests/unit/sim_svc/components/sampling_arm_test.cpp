@@ -47,7 +47,7 @@ TEST(SamplingArm, BringsASampleFromTheIceToTheLaboratory) {
   EXPECT_EQ(run.arm("excavate", kSite), "done");
   EXPECT_NEAR(run.seconds_taken(), 10000, 1e-3);
   EXPECT_NEAR(run.joules_taken(), 10000 * (100 / 0.5 + 60), 1) << "the cutter at its efficiency, and the arm";
-  EXPECT_EQ(run.last_ack(run.newest)->word.results.values.at("depth_m"), temporal::Value{0.1});
+  EXPECT_EQ(run.last_ack(run.newest)->status.results.values.at("depth_m"), temporal::Value{0.1});
   EXPECT_EQ(run.state("lander.site.0"), (State{"excavated", {}}));
   EXPECT_EQ(run.state("lander.site.1"), (State{"untouched", {}}));
   run.start("arm", "collect", kTarget);
@@ -218,7 +218,7 @@ TEST(SamplingArm, AHollowSuccessIsToldAndChangesNothing) {
   };
   hollow("excavate");
   EXPECT_EQ(run.arm("excavate", kSite), "done");
-  EXPECT_EQ(run.last_ack(run.newest)->word.results.values.at("depth_m"), temporal::Value{0.1})
+  EXPECT_EQ(run.last_ack(run.newest)->status.results.values.at("depth_m"), temporal::Value{0.1})
       << "as it believes";
   EXPECT_EQ(run.state("lander.site.0"), (State{"untouched", {}}));
   EXPECT_EQ(depth(run, "0"), 0);

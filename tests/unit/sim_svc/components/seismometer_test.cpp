@@ -39,7 +39,7 @@ Flight recorded(double for_s, const SeismometerSettings& settings = seismometer(
 }
 
 double number(const Flight& run, const std::string& activity, const std::string& name) {
-  return std::get<double>(run.last_ack(activity)->word.results.values.at(name));
+  return std::get<double>(run.last_ack(activity)->status.results.values.at(name));
 }
 
 TEST(Seismometer, IsParkedUntilItIsLevelAndRecordsUntilItIsParked) {

@@ -138,7 +138,7 @@ TEST(DriveWithSoilSensor, EndsWithNoGoWhereItIsSafeItself) {
   run.drive(seconds(1), "d", "there", 40, 20);
   run.advance(seconds(400));
   EXPECT_EQ(run.code("d"), "no-go");
-  EXPECT_THAT(run.last_ack("d")->word.reason, HasSubstr("wheel_bevameter says No-Go for primary"));
+  EXPECT_THAT(run.last_ack("d")->status.reason, HasSubstr("wheel_bevameter says No-Go for primary"));
   EXPECT_EQ(run.state("rover.nav"), (temporal::State{"idle-at", {"here"}}));
   std::vector<world::SoilMarked> marked;
   for (const world::Output& output : run.said)
@@ -148,7 +148,7 @@ TEST(DriveWithSoilSensor, EndsWithNoGoWhereItIsSafeItself) {
   EXPECT_NEAR(marked[0].x, 28.03 + 1.5, 0.05) << "the circle lies ahead of the body";
   EXPECT_EQ(marked[0].radius, 1.5);
   EXPECT_EQ(marked[0].at, run.time_of("d"));
-  EXPECT_GT(std::get<double>(run.last_ack("d")->word.results.values.at("soil_samples")), 0);
+  EXPECT_GT(std::get<double>(run.last_ack("d")->status.results.values.at("soil_samples")), 0);
 
   run.drive(seconds(500), "e", "away", 20, 20);
   run.advance(seconds(900));

@@ -38,7 +38,7 @@ TEST(SurveyCamera, FindsSitesAndWhatTheyAreWorth) {
   EXPECT_EQ(run.state("lander.camera"), (State{"surveying", {"find_sites"}}));
   run.advance(seconds(8000));
   EXPECT_EQ(run.time_of("f"), seconds(7210));
-  const auto results = run.last_ack("f")->word.results;
+  const auto results = run.last_ack("f")->status.results;
   EXPECT_EQ(results.values, (std::map<std::string, temporal::Value>{{"value_0", 0.9}, {"value_1", 0.4}}));
   EXPECT_NEAR(results.energy_j.value(), 7200 * 60, 1e-6);
   EXPECT_TRUE(products_in(run.said).empty());
@@ -48,7 +48,7 @@ TEST(SurveyCamera, FindsTheTargetsOfASite) {
   Flight run = lander(camera());
   run.command(seconds(10), execute("f", "camera", "find_targets", {{"site", "0"}}));
   run.advance(seconds(8000));
-  EXPECT_EQ(run.last_ack("f")->word.results.values,
+  EXPECT_EQ(run.last_ack("f")->status.results.values,
             (std::map<std::string, temporal::Value>{{"visual_0_0", 0.3}, {"visual_0_1", 0.8}}));
   ASSERT_EQ(products_in(run.said).size(), 1u);
   EXPECT_EQ(products_in(run.said)[0].id, "trench_0");

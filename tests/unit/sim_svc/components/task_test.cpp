@@ -63,7 +63,7 @@ TEST(TaskComponent, GoesFromStateToStateAndChangesItsNumbers) {
   EXPECT_EQ(run.state("station.drill"), (State{"in", {"h1", "deep"}}));
   EXPECT_EQ(last_number(run.said, "station.drill.depth"), 21);
   EXPECT_EQ(last_number(run.said, "station.drill.bits"), 3);
-  const auto results = run.last_ack("b")->word.results;
+  const auto results = run.last_ack("b")->status.results;
   EXPECT_EQ(results.duration, seconds(100));
   EXPECT_NEAR(results.energy_j.value(), 5000, 1e-6);
   EXPECT_EQ(results.values.at("depth"), temporal::Value{21.0});
@@ -86,7 +86,7 @@ TEST(TaskComponent, SlowedByAFaultItTakesLongerAndKeepsWhatItHasDone) {
   run.advance(seconds(200));
   EXPECT_EQ(run.time_of("b"), seconds(122)) << "40 s at half the pace cost 20 s";
   EXPECT_EQ(last_number(run.said, "station.drill.depth"), 21);
-  EXPECT_NEAR(run.last_ack("b")->word.results.energy_j.value(), 120 * 50, 1e-6)
+  EXPECT_NEAR(run.last_ack("b")->status.results.energy_j.value(), 120 * 50, 1e-6)
       << "it draws its power all the time";
 }
 
@@ -138,13 +138,13 @@ TEST(TaskComponent, FailsIfTheBatteryHasNotRisenByWhatWasToComeIn) {
   EXPECT_EQ(little.code("c"), "no-gain");
   EXPECT_EQ(little.time_of("c"), seconds(51));
   EXPECT_EQ(little.state("station.clamp"), (State{"dark", {}}));
-  EXPECT_EQ(little.last_ack("c")->word.reason,
+  EXPECT_EQ(little.last_ack("c")->status.reason,
             "the battery has risen by 1000 J during charge, at least 1001 J were to come in; look at what "
             "charges it");
 
   const Flight none = charging(1000, 0);
   EXPECT_EQ(none.code("c"), "no-gain");
-  EXPECT_EQ(none.last_ack("c")->word.reason,
+  EXPECT_EQ(none.last_ack("c")->status.reason,
             "the battery has not risen, but fallen by 500 J during charge, at least 1000 J were to come in; "
             "look at what charges it");
 }
@@ -159,7 +159,7 @@ TEST(TaskComponent, MayBeLookedAtBeforeItsEndAndThenFailsAtOnce) {
   EXPECT_EQ(little.time_of("c"), seconds(11));
   EXPECT_EQ(little.state("station.clamp"), (State{"dark", {}}));
   EXPECT_THAT(
-      little.last_ack("c")->word.reason,
+      little.last_ack("c")->status.reason,
       testing::StartsWith("the battery has risen by 200 J in the first 10 s of charge, at least 201 J"));
 }
 
@@ -224,7 +224,7 @@ TEST(TaskComponent, AHollowSuccessIsToldAndChangesNothing) {
   EXPECT_EQ(last_number(run.said, "station.drill.depth"), 1);
   EXPECT_EQ(last_number(run.said, "station.drill.bits"), 4);
   EXPECT_FALSE(last_value(run.said, "station.hole.h1").has_value());
-  EXPECT_NEAR(run.last_ack("b")->word.results.energy_j.value(), 5000, 1e-6) << "what it used is gone";
+  EXPECT_NEAR(run.last_ack("b")->status.results.energy_j.value(), 5000, 1e-6) << "what it used is gone";
   run.command(seconds(110), execute("b2", "drill", "bore", {{"hole", "h1"}}));
   run.advance(seconds(300));
   EXPECT_EQ(run.state("station.drill"), (State{"in", {"h1", "deep"}})) << "the next one is true again";
@@ -235,7 +235,7 @@ TEST(TaskComponent, NeedsOtherPartsInTheirStates) {
   run.command(seconds(1), execute("b", "drill", "bore", {{"hole", "h1"}}));
   EXPECT_EQ(run.stage("b"), Stage::failed);
   EXPECT_EQ(run.code("b"), "not-ready");
-  EXPECT_EQ(run.last_ack("b")->word.reason, "clamp is open, not closed");
+  EXPECT_EQ(run.last_ack("b")->status.reason, "clamp is open, not closed");
   EXPECT_EQ(run.state("station.drill"), (State{"up", {}}));
 }
 

@@ -58,8 +58,8 @@ std::map<std::string, Share> shares(std::uint64_t seed) {
     run.command(now, execute(activity, one.component, one.command, one.arguments));
     for (int i = 0; i < 3000 && run.stage(activity) == services::owner::Stage::accepted; ++i)
       run.advance(now += seconds(60));
-    EXPECT_EQ(run.code(activity), "done") << activity << ": " << run.last_ack(activity)->word.reason;
-    const auto& results = run.last_ack(activity)->word.results;
+    EXPECT_EQ(run.code(activity), "done") << activity << ": " << run.last_ack(activity)->status.reason;
+    const auto& results = run.last_ack(activity)->status.results;
     Share& share = out[one.component + " " + one.command];
     share.seconds += temporal::to_seconds(results.duration.value_or(temporal::Duration{}));
     share.joules += results.energy_j.value_or(0);

@@ -101,13 +101,13 @@ TEST(Commands, UnknownComponentsAndCommandsAreRefusedByNamingTheKnown) {
   Flight run(flat_setup());
   run.command(seconds(1), execute("a", "wheels", "drive"));
   EXPECT_EQ(run.stage("a"), Stage::rejected);
-  EXPECT_THAT(run.last_ack("a")->word.reason, HasSubstr("nav, arm, camera, gripper, radio"));
+  EXPECT_THAT(run.last_ack("a")->status.reason, HasSubstr("nav, arm, camera, gripper, radio"));
   run.command(seconds(2), execute("b", "nav", "fly"));
   EXPECT_EQ(run.stage("b"), Stage::rejected);
-  EXPECT_THAT(run.last_ack("b")->word.reason, HasSubstr("drive, turn, stop"));
+  EXPECT_THAT(run.last_ack("b")->status.reason, HasSubstr("drive, turn, stop"));
   run.command(seconds(3), execute("c", "nav", "drive", {{"to", "there"}}));
   EXPECT_EQ(run.stage("c"), Stage::rejected);
-  EXPECT_THAT(run.last_ack("c")->word.reason, HasSubstr("'x'"));
+  EXPECT_THAT(run.last_ack("c")->status.reason, HasSubstr("'x'"));
   run.command(seconds(4), execute("d", "nav", "drive", {{"to", "there"}, {"x", "far"}, {"y", "1"}}));
   EXPECT_EQ(run.code("d"), "bad-arguments");
 }

@@ -110,12 +110,12 @@ TEST(Robots, AmongSeveralACommandNamesItsRobot) {
   Flight run(two_rovers());
   run.command(seconds(1), execute("a", "camera", "image", {{"image", "one"}}));
   EXPECT_EQ(run.code("a"), "unknown-robot");
-  EXPECT_THAT(run.last_ack("a")->word.reason, HasSubstr("rover, scout"));
+  EXPECT_THAT(run.last_ack("a")->status.reason, HasSubstr("rover, scout"));
   auto request = execute("b", "camera", "image", {{"image", "one"}});
   request.robot = "third";
   run.command(seconds(2), request);
   EXPECT_EQ(run.code("b"), "unknown-robot");
-  EXPECT_THAT(run.last_ack("b")->word.reason, HasSubstr("'third'"));
+  EXPECT_THAT(run.last_ack("b")->status.reason, HasSubstr("'third'"));
 }
 
 TEST(Robots, AFaultAndALossConcernTheirRobotAlone) {
@@ -259,10 +259,10 @@ TEST(Robots, APartOfATestFitsIn) {
   EXPECT_EQ(run.code("d"), "blinded");
   run.advance(seconds(100));
   const auto ack = run.last_ack("l").value();
-  EXPECT_EQ(ack.word.stage, Stage::completed);
-  EXPECT_EQ(ack.word.results.duration, seconds(30));
-  EXPECT_NEAR(ack.word.results.energy_j.value(), 3000, 1e-6);
-  EXPECT_EQ(ack.word.results.values.at("lit"), temporal::Value{true});
+  EXPECT_EQ(ack.status.stage, Stage::completed);
+  EXPECT_EQ(ack.status.results.duration, seconds(30));
+  EXPECT_NEAR(ack.status.results.energy_j.value(), 3000, 1e-6);
+  EXPECT_EQ(ack.status.results.values.at("lit"), temporal::Value{true});
 }
 
 TEST(Robots, ARepairHasToFitIntoItsStep) {

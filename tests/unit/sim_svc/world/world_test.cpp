@@ -153,11 +153,11 @@ TEST(World, ALookForAWayAroundIsToldAsTheOwnersRepair) {
   Flight run(setup_with_rock_and_detours(1));
   run.drive(seconds(1), "d", "there", 60, 20);
   run.advance(seconds(210));
-  const auto word = run.last_ack("d");
-  ASSERT_TRUE(word);
-  EXPECT_EQ(word->word.stage, Stage::accepted);
-  EXPECT_EQ(word->word.code, "repairing");
-  EXPECT_THAT(word->word.reason, testing::HasSubstr("rock-1"));
+  const auto status = run.last_ack("d");
+  ASSERT_TRUE(status);
+  EXPECT_EQ(status->status.stage, Stage::accepted);
+  EXPECT_EQ(status->status.code, "repairing");
+  EXPECT_THAT(status->status.reason, testing::HasSubstr("rock-1"));
 }
 
 TEST(World, AFailedDriveSaysWhyInWords) {
@@ -166,13 +166,14 @@ TEST(World, AFailedDriveSaysWhyInWords) {
   Flight blocked(rocky);
   blocked.drive(seconds(1), "d", "there", 60, 20);
   blocked.advance(seconds(500));
-  EXPECT_EQ(blocked.last_ack("d")->word.reason, "a rock that the map does not show lies on the way (rock-1)");
+  EXPECT_EQ(blocked.last_ack("d")->status.reason,
+            "a rock that the map does not show lies on the way (rock-1)");
 
   Flight lost(flat_setup());
   lost.command(seconds(1), drive_to("d", "far", 90, 90));
   lost.answer(seconds(2), "d", Way{});
   EXPECT_EQ(lost.code("d"), "no-path");
-  EXPECT_EQ(lost.last_ack("d")->word.reason, "the path has no way-points");
+  EXPECT_EQ(lost.last_ack("d")->status.reason, "the path has no way-points");
   EXPECT_EQ(lost.state("rover.nav"), kHere);
 
   FlatSetup steep = flat_setup();
@@ -181,7 +182,7 @@ TEST(World, AFailedDriveSaysWhyInWords) {
   stuck.drive(seconds(1), "d", "there", 60, 20);
   stuck.advance(seconds(2000));
   EXPECT_EQ(stuck.code("d"), "stuck");
-  EXPECT_EQ(stuck.last_ack("d")->word.reason, "the wheels turn without progress");
+  EXPECT_EQ(stuck.last_ack("d")->status.reason, "the wheels turn without progress");
 }
 
 TEST(World, AfterItsLastDetourADriveFailsAsBlocked) {

@@ -1,6 +1,4 @@
-// The samples that reached no handler because of what they are, or because there was no room for them: counted by topic
-// and reason, told in the log and by the event sample.refused,
-// the first time and each time that the count has grown tenfold.
+// Refusals count the samples that reached no handler because of what they are, or because there was no room for them.
 #pragma once
 
 #include <cstdint>
@@ -18,43 +16,43 @@
 
 namespace roci::services::node {
 
-enum class Refusal {
+enum class SampleRejection {
   malformed,     ///< It does not decode, or says what no sample of its type can say.
-  too_large,     ///< It is larger than its topic allows (topics.hpp).
+  too_large,     ///< It is larger than its topic allows (topics/topics.hpp).
   queue_full,    ///< The loop has not yet taken as many as may wait (bounds/limits.hpp).
   no_room,       ///< The table that it would have entered is full.
   another_name,  ///< In a secure run: it names a sender whose certificate its writer has not.
 };
 
 /// "malformed", "too large", …
-const char* to_string(Refusal);
+const char* to_string(SampleRejection);
 
-class Refusals {
+class RejectedSamples {
  public:
   using Lookup = std::function<std::optional<transport::Participant>(const transport::Guid&)>;
 
   /// `lookup` names participants. `prepare` opens the topic of events, `tell` writes one `tell_after_s` of wall time
   /// later; both are called by turn() alone.
-  Refusals(std::string node, Lookup lookup, std::function<void()> prepare,
-           std::function<void(const v1::Event&)> tell, double tell_after_s);
+  RejectedSamples(std::string node, Lookup lookup, std::function<void()> prepare,
+                  std::function<void(const v1::Event&)> tell, double tell_after_s);
 
   /// Counts a sample of the writer; any thread may call it.
-  void note(const std::string& topic, Refusal, const transport::Guid& writer);
+  void note(const std::string& topic, SampleRejection, const transport::Guid& writer);
   /// The same where it is no longer known who wrote it.
-  void note(const std::string& topic, Refusal why) { note(topic, why, {}); }
-  std::uint64_t count(const std::string& topic, Refusal) const;
+  void note(const std::string& topic, SampleRejection why) { note(topic, why, {}); }
+  std::uint64_t count(const std::string& topic, SampleRejection) const;
 
-  /// Is called in each turn of the loop: tells what is new.
+  /// Reports what is new; it is called in each turn of the loop.
   void turn(clock::WallTime now);
 
-  /// Live, the event is written so much wall time after the log's line: by then who reads events is found. Under the
-  /// simulated clock who is found later hears it, too.
+  /// Delays the event, live, by so much wall time after the log's line: by then readers of events are found. Under
+  /// the simulated clock readers that are found later hear it, too.
   static constexpr double kTellAfterS = 1.5;
 
  private:
   struct New {
     std::string topic;
-    Refusal why;
+    SampleRejection why;
     transport::Guid writer;
     std::uint64_t count;
   };

@@ -1,4 +1,4 @@
-// What the guard says of a datagram, and what it counts.
+// A verdict is what the guard says of a datagram, and what it counts.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 namespace roci::services::vendors::guard {
 
 /// Everything but `pass` means that the vendor never sees the datagram.
-enum class Verdict : std::uint8_t {
+enum class DatagramAdmission : std::uint8_t {
   pass,
   stranger,  ///< It comes from an address that is neither a configured peer's nor this host's own.
   no_rtps,   ///< It has no RTPS header of version 2.
@@ -25,22 +25,22 @@ enum class Verdict : std::uint8_t {
   plain,           ///< In a secure run: nothing in it is encrypted that must be. It is counted, and not told.
 };
 
-inline constexpr std::array<std::string_view, 13> kVerdictNames{"pass",
-                                                                "stranger",
-                                                                "no_rtps",
-                                                                "cut",
-                                                                "unknown_submessage",
-                                                                "bad_numbers",
-                                                                "bad_fragment",
-                                                                "oversized",
-                                                                "bad_parameters",
-                                                                "speaks_for_another",
-                                                                "taken_identity",
-                                                                "crowd",
-                                                                "plain"};
-inline constexpr std::size_t kVerdicts = kVerdictNames.size();
+inline constexpr std::array<std::string_view, 13> kAdmissionNames{"pass",
+                                                                  "stranger",
+                                                                  "no_rtps",
+                                                                  "cut",
+                                                                  "unknown_submessage",
+                                                                  "bad_numbers",
+                                                                  "bad_fragment",
+                                                                  "oversized",
+                                                                  "bad_parameters",
+                                                                  "speaks_for_another",
+                                                                  "taken_identity",
+                                                                  "crowd",
+                                                                  "plain"};
+inline constexpr std::size_t kAdmissions = kAdmissionNames.size();
 
-/// The largest sample that is taken in, in bytes: a plan of 8,000 activities has about 4 MiB.
+/// Bounds a sample that is taken in, in bytes: a plan of 8,000 activities has about 4 MiB.
 inline constexpr std::uint32_t kMaxSampleBytes = 16u * 1024 * 1024;
 
 }  // namespace roci::services::vendors::guard

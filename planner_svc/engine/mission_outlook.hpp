@@ -1,5 +1,5 @@
-// What an engine that plans all the time expects of its plan,
-// told to operators and to whoever sends data (R110–R115, R127).
+// An outlook is what an engine that plans all the time expects of its plan, for operators and for whoever
+// sends data (R110–R115, R127).
 #pragma once
 
 #include <cstdint>
@@ -28,17 +28,19 @@ struct ScheduledProduct {
   friend bool operator==(const ScheduledProduct&, const ScheduledProduct&) = default;
 };
 
+/// Says what one downlink of the plan carries, and what that takes.
 struct ScheduledDownlink {
-  std::string activity;  ///< of the plan
+  std::string activity;  ///< activity of the plan
   temporal::Time start{0};
   temporal::Time end{0};
   std::uint64_t bytes = 0;
-  temporal::Duration takes{0};               ///< the transmission alone
-  double energy_j = 0;                       ///< of the transmission
+  temporal::Duration takes{0};               ///< time of the transmission alone
+  double energy_j = 0;                       ///< energy of the transmission
   std::vector<ScheduledProduct> products{};  ///< in the order in which they go
   friend bool operator==(const ScheduledDownlink&, const ScheduledDownlink&) = default;
 };
 
+/// Names data that are not sent, or late, and why.
 struct UnsentProduct {
   ScheduledProduct data;
   std::string why;
@@ -58,7 +60,7 @@ struct DownlinkSchedule {
 /// Says how a requested task stands, in the order of ChainStage in idl/outlook.idl.
 enum class ChainStage { planned, committed, running, done, failed };
 
-/// Is a requested task in the way that was chosen for it.
+/// Describes a requested task in the way that was chosen for it.
 struct ChainOutlook {
   std::string request;
   std::string title;  ///< for people
@@ -73,6 +75,7 @@ struct ChainOutlook {
   friend bool operator==(const ChainOutlook&, const ChainOutlook&) = default;
 };
 
+/// Says what data are expected to be worth, and what they turned out to be worth.
 struct ProductOutlook {
   ScheduledProduct data;
   std::string request;  ///< empty: none of the model
@@ -82,7 +85,7 @@ struct ProductOutlook {
   friend bool operator==(const ProductOutlook&, const ProductOutlook&) = default;
 };
 
-/// Is what the budget is expected to hold now, and where a planned task starts or ends.
+/// Says what the budget is expected to hold now, and where a planned task starts or ends.
 struct EnergyPoint {
   temporal::Time at{0};
   std::string activity;  ///< that ends then; empty: none
@@ -92,9 +95,10 @@ struct EnergyPoint {
   friend bool operator==(const EnergyPoint&, const EnergyPoint&) = default;
 };
 
-/// Has the order of SignatureOutcome in idl/outlook.idl.
+/// Says what is known of a target's biosignature, in the order of SignatureOutcome in idl/outlook.idl.
 enum class SignatureOutcome { unknown, negative, positive };
 
+/// Describes a target of the science subway map (R112).
 struct SubwayTarget {
   std::string task;  ///< that is requested to sample it
   SignatureOutcome outcome = SignatureOutcome::unknown;
@@ -105,6 +109,7 @@ struct SubwayTarget {
   friend bool operator==(const SubwayTarget&, const SubwayTarget&) = default;
 };
 
+/// Describes a site of the science subway map with its targets (R112).
 struct SubwaySite {
   std::string name;
   double by_vision = 0;  ///< in [0, 1]

@@ -1,4 +1,4 @@
-#include "services/process/durable_file.hpp"
+#include "core/durable/durable_file.hpp"
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -7,7 +7,7 @@
 #include <string>
 #include <system_error>
 
-namespace roci::services::process {
+namespace roci::durable {
 namespace {
 
 namespace fs = std::filesystem;
@@ -15,8 +15,8 @@ namespace fs = std::filesystem;
 // Owns a descriptor.
 class Descriptor {
  public:
-  Descriptor(const fs::path& path, int flags)
-      : path_(path), value_(open(path.c_str(), flags | O_CLOEXEC, 0644)) {
+  Descriptor(const fs::path& path, int flags, mode_t mode = 0)
+      : path_(path), value_(open(path.c_str(), flags | O_CLOEXEC, mode)) {
     if (value_ < 0) fail("cannot open");
   }
   ~Descriptor() { close(value_); }
@@ -45,21 +45,25 @@ class Descriptor {
 
 }  // namespace
 
-void replace_file(const fs::path& file, std::string_view text) {
+void replace_file(const fs::path& file, std::string_view text, Durability durability, mode_t mode) {
   const fs::path unfinished = fs::path(file).concat(".new");
   std::error_code none;
   fs::remove(unfinished, none);
   {
-    const Descriptor out(unfinished, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW);
+    const Descriptor out(unfinished, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW, mode);
     out.write(text);
-    out.sync();
+    if (durability == Durability::power) out.sync();
   }
+  put_in_place(unfinished, file, durability);
+}
+
+void put_in_place(const fs::path& unfinished, const fs::path& file, Durability durability) {
   fs::rename(unfinished, file);
-  sync_folder(file.parent_path());
+  if (durability == Durability::power) sync_folder(file.parent_path());
 }
 
 void sync_folder(const fs::path& folder) {
   Descriptor(folder.empty() ? fs::path(".") : folder, O_RDONLY | O_DIRECTORY).sync();
 }
 
-}  // namespace roci::services::process
+}  // namespace roci::durable

@@ -1,4 +1,4 @@
-#include "services/node/refusals.hpp"
+#include "services/node/rejected_samples.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -9,19 +9,19 @@
 namespace roci::services::node {
 namespace {
 
-std::string key_of(const std::string& topic, Refusal why) { return topic + " " + to_string(why); }
+std::string key_of(const std::string& topic, SampleRejection why) { return topic + " " + to_string(why); }
 
-const char* remedy_of(Refusal why) {
+const char* remedy_of(SampleRejection why) {
   switch (why) {
-    case Refusal::malformed:
+    case SampleRejection::malformed:
       return "it is no sample of the topic's type";
-    case Refusal::too_large:
+    case SampleRejection::too_large:
       return "it is larger than the topic allows";
-    case Refusal::queue_full:
+    case SampleRejection::queue_full:
       return "too many wait already: its writer is too fast, or this service too slow";
-    case Refusal::no_room:
+    case SampleRejection::no_room:
       return "the table that it would have entered is full";
-    case Refusal::another_name:
+    case SampleRejection::another_name:
       return "its writer has not the certificate of the service that it names as its sender";
   }
   return "";
@@ -29,48 +29,48 @@ const char* remedy_of(Refusal why) {
 
 }  // namespace
 
-const char* to_string(Refusal why) {
+const char* to_string(SampleRejection why) {
   switch (why) {
-    case Refusal::malformed:
+    case SampleRejection::malformed:
       return "malformed";
-    case Refusal::too_large:
+    case SampleRejection::too_large:
       return "too large";
-    case Refusal::queue_full:
+    case SampleRejection::queue_full:
       return "queue full";
-    case Refusal::no_room:
+    case SampleRejection::no_room:
       return "no room";
-    case Refusal::another_name:
+    case SampleRejection::another_name:
       return "another's name";
   }
   return "unknown";
 }
 
-Refusals::Refusals(std::string node, Lookup lookup, std::function<void()> prepare,
-                   std::function<void(const v1::Event&)> tell, double tell_after_s)
+RejectedSamples::RejectedSamples(std::string node, Lookup lookup, std::function<void()> prepare,
+                                 std::function<void(const v1::Event&)> tell, double tell_after_s)
     : node_(std::move(node)),
       lookup_(std::move(lookup)),
       prepare_(std::move(prepare)),
       tell_(std::move(tell)),
       tell_after_s_(tell_after_s) {}
 
-void Refusals::note(const std::string& topic, Refusal why, const transport::Guid& writer) {
+void RejectedSamples::note(const std::string& topic, SampleRejection why, const transport::Guid& writer) {
   const std::scoped_lock lock(mutex_);
   if (const std::uint64_t count = tally_.note(key_of(topic, why)))
     news_.push_back({topic, why, writer, count});
 }
 
-std::uint64_t Refusals::count(const std::string& topic, Refusal why) const {
+std::uint64_t RejectedSamples::count(const std::string& topic, SampleRejection why) const {
   const std::scoped_lock lock(mutex_);
   return tally_.count(key_of(topic, why));
 }
 
-std::string Refusals::name_of(const transport::Guid& writer) const {
+std::string RejectedSamples::name_of(const transport::Guid& writer) const {
   const bool known = std::ranges::any_of(writer, [](std::uint8_t byte) { return byte != 0; });
   const auto participant = known ? lookup_(writer) : std::nullopt;
   return participant && !participant->name.empty() ? participant->name : "unknown";
 }
 
-v1::Event Refusals::event_of(const New& one) const {
+v1::Event RejectedSamples::event_of(const New& one) const {
   return make_event(v1::SEVERITY_WARNING, "sample.refused",
                     node_ + " refuses a sample of " + one.topic + ": " + remedy_of(one.why) + " (" +
                         std::to_string(one.count) + " so far)",
@@ -81,7 +81,7 @@ v1::Event Refusals::event_of(const New& one) const {
                      {"participant", name_of(one.writer)}});
 }
 
-void Refusals::turn(clock::WallTime now) {
+void RejectedSamples::turn(clock::WallTime now) {
   std::vector<New> news;
   {
     const std::scoped_lock lock(mutex_);
