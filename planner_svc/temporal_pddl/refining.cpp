@@ -19,7 +19,7 @@ namespace {
 // After so many rounds nothing is left cheap, so that a call does not go on for long.
 constexpr std::size_t kMostRounds = 50;
 // Likewise in lazy mode, where a round finds out about one place at a time: a search that looks everywhere has touched
-// nearly all values in the end, and made as many searches as there are places (docs/adr/0018).
+// nearly all values in the end, and made as many searches as there are places (docs/adr/0019).
 constexpr std::size_t kMostLazyRounds = 10;
 // Evaluations for better plans in the first round that has no smaller budget for them; twice as many in each
 // round after one whose values were right.
