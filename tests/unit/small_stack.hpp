@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <functional>
 
-namespace roci::testing {
+namespace roci::small_stack {
 
 /// Runs the function in a thread with a stack of so many bytes (a usual one has 8 MiB), and waits for its end.
 inline void on_small_stack(std::function<void()> function, std::size_t bytes = 256 * 1024) {
@@ -24,4 +24,4 @@ inline void on_small_stack(std::function<void()> function, std::size_t bytes = 2
   pthread_attr_destroy(&attributes);
 }
 
-}  // namespace roci::testing
+}  // namespace roci::small_stack

@@ -50,7 +50,7 @@ Judged judged(const std::string& domain, const std::string& problem, const std::
 }
 
 TEST(ClosedWorld, ManyVariablesOfAGoalTakeNoStack) {
-  testing::on_small_stack([] {
+  small_stack::on_small_stack([] {
     const Judged all = judged("(:predicates (p ?x))", "(:objects o) (:init (p o))",
                               "(forall (" + repeated("?v", " ", 20000) + ") (p ?v19999))");
     EXPECT_EQ(all.truth, Truth::yes);
@@ -59,7 +59,7 @@ TEST(ClosedWorld, ManyVariablesOfAGoalTakeNoStack) {
 }
 
 TEST(ClosedWorld, ManyParametersOfADerivedPredicateTakeNoStack) {
-  testing::on_small_stack([] {
+  small_stack::on_small_stack([] {
     const std::string parameters = repeated("?v", " ", 20000);
     const Judged one =
         judged("(:predicates (p ?x) (d " + parameters + ")) (:derived (d " + parameters + ") (p ?v19999))",
@@ -71,7 +71,7 @@ TEST(ClosedWorld, ManyParametersOfADerivedPredicateTakeNoStack) {
 
 // As deep as a text may nest.
 TEST(ClosedWorld, NestedQuantifiersFitOnASmallStack) {
-  testing::on_small_stack([] {
+  small_stack::on_small_stack([] {
     std::string goal = "(p ?v0)";
     for (int i = 0; i < 190; ++i)
       goal = "(" + std::string(i % 2 == 0 ? "forall" : "exists") + " (?v" + std::to_string(i) + ") " + goal +

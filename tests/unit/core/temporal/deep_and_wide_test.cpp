@@ -13,7 +13,7 @@
 namespace roci::temporal {
 namespace {
 
-using roci::testing::on_small_stack;
+using roci::small_stack::on_small_stack;
 
 constexpr TimePoint kMany = 20'000;
 constexpr std::size_t kStack = 64 * 1024;  // bytes

@@ -12,7 +12,7 @@
 namespace roci::planner::temporal_pddl {
 namespace {
 
-using roci::testing::on_small_stack;
+using roci::small_stack::on_small_stack;
 using temporal::Verdict;
 using ::testing::HasSubstr;
 
