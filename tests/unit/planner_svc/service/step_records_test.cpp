@@ -11,9 +11,9 @@ namespace roci::planner {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::HasSubstr, testing::UnorderedElementsAre;
+using ::testing::HasSubstr, ::testing::UnorderedElementsAre;
 
-class StepRecordsTest : public testing::Test {
+class StepRecordsTest : public ::testing::Test {
  protected:
   ~StepRecordsTest() override { fs::remove_all(folder_); }
 
