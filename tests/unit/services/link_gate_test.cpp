@@ -23,13 +23,13 @@ link::LinkTable between(const std::string& one, const std::string& other, const 
   return {{link}, {{"a", ""}, {"b", ""}, {"c", ""}}, 1};
 }
 
-v1::Event event(const std::string& text) {
+v1::Event an_event(const std::string& text) {
   v1::Event out;
   out.text(text);
   return out;
 }
 
-v1::Observation observation(const std::string& timeline, double number) {
+v1::Observation an_observation(const std::string& timeline, double number) {
   v1::Observation out;
   out.timeline(timeline);
   out.observed().number(number);
@@ -73,8 +73,8 @@ TEST_F(LinkGate, TheLightTimeDelaysWhatIsHeardOverTheLinkAlone) {
   link::Link link;
   link.light_time = 1500ms;
   fly(link, 5s, [this] {
-    a().at(10ms, [this] { events.write(event("one")); });
-    a().at(20ms, [this] { events.write(event("two")); });
+    a().at(10ms, [this] { events.write(an_event("one")); });
+    a().at(20ms, [this] { events.write(an_event("two")); });
   });
   EXPECT_THAT(logs["b"], ElementsAre("1510 one", "1520 two"));
   EXPECT_THAT(logs["c"], ElementsAre("10 one", "20 two"));
@@ -84,9 +84,9 @@ TEST_F(LinkGate, WhatArrivesLateComesBeforeWhatIsSaidNow) {
   link::Link link;
   link.light_time = 1s;
   fly(link, 5s, [this] {
-    a().at(1s, [this] { events.write(event("over the link")); });
+    a().at(1s, [this] { events.write(an_event("over the link")); });
     auto from_c = advertise(*nodes["c"], topics::event);
-    nodes["c"]->at(2s, [from_c] { from_c.write(event("beside it")); });
+    nodes["c"]->at(2s, [from_c] { from_c.write(an_event("beside it")); });
   });
   EXPECT_THAT(logs["b"], ElementsAre("2000 over the link", "2000 beside it"));
 }
@@ -96,8 +96,8 @@ TEST_F(LinkGate, TheRateTakesItsTimeForEachByte) {
   link.rate_bit_s = 8000;
   fly(link, 5s, [this] {
     a().at(0ms, [this] {
-      events.write(event(std::string(100, 'x')));
-      events.write(event(std::string(200, 'x')));
+      events.write(an_event(std::string(100, 'x')));
+      events.write(an_event(std::string(200, 'x')));
     });
   });
   ASSERT_EQ(logs["b"].size(), 2U);
@@ -110,13 +110,13 @@ TEST_F(LinkGate, AStateTopicDeliversItsNewestValueWhenTheLinkReturns) {
   link::Link link;
   link.open = link::Schedule({{0s, 1s}, {3s, 100s}}, {});
   fly(link, 5s, [this] {
-    a().at(500ms, [this] { observations.write(observation("x", 1)); });
+    a().at(500ms, [this] { observations.write(an_observation("x", 1)); });
     a().at(1s, [this] {
-      observations.write(observation("x", 2));
-      observations.write(observation("y", 7));
-      events.write(event("nobody hears this"));
+      observations.write(an_observation("x", 2));
+      observations.write(an_observation("y", 7));
+      events.write(an_event("nobody hears this"));
     });
-    a().at(2s, [this] { observations.write(observation("x", 3)); });
+    a().at(2s, [this] { observations.write(an_observation("x", 3)); });
   });
   EXPECT_THAT(logs["b"], ElementsAre("500 x=1", "3000 y=7", "3000 x=3"));
   EXPECT_EQ(logs["c"].size(), 5U);
@@ -127,8 +127,8 @@ TEST_F(LinkGate, ChanceLosesEventsAndDelaysStates) {
   link.loss = 0.3;
   fly(link, 100s, [this] {
     for (int i = 0; i < 100; ++i) {
-      a().at(std::chrono::milliseconds(10 * i), [this, i] { events.write(event(std::to_string(i))); });
-      a().at(2s, [this, i] { observations.write(observation("t" + std::to_string(i), i)); });
+      a().at(std::chrono::milliseconds(10 * i), [this, i] { events.write(an_event(std::to_string(i))); });
+      a().at(2s, [this, i] { observations.write(an_observation("t" + std::to_string(i), i)); });
     }
   });
   const auto counts = b().link_counts().at("radio");
@@ -145,8 +145,8 @@ TEST_F(LinkGate, ChanceLosesEventsAndDelaysStates) {
 TEST_F(LinkGate, ALinkWithoutSettingsChangesNothing) {
   fly({}, 5s, [this] {
     for (int i = 0; i < 20; ++i) {
-      a().at(1s, [this, i] { observations.write(observation("x", i)); });
-      a().at(1s, [this, i] { events.write(event(std::to_string(i))); });
+      a().at(1s, [this, i] { observations.write(an_observation("x", i)); });
+      a().at(1s, [this, i] { events.write(an_event(std::to_string(i))); });
     }
   });
   EXPECT_EQ(logs["b"], logs["c"]);
@@ -262,7 +262,7 @@ TEST(LinkGateOfRobots, WhatTheWorldSaysOfARobotComesOverItsRadio) {
   const auto out = advertise(world, topics::observation);
   world.at(1s, [&] {
     for (const char* timeline : {"primary.battery", "scout.battery", "ground.window"})
-      out.write(observation(timeline, 1));
+      out.write(an_observation(timeline, 1));
   });
   world.at(60s, [&] { world.stop(); });
   run.run();
@@ -301,10 +301,10 @@ TEST_F(LinkGate, WhatIsLostIsNamed) {
   link.open = link::Schedule({}, {{1s, 3s}});
   fly(link, 5s, [this] {
     a().at(1500ms, [this] {
-      observations.write(observation("x", 1));
-      events.write(event("nobody hears this"));
+      observations.write(an_observation("x", 1));
+      events.write(an_event("nobody hears this"));
     });
-    a().at(2s, [this] { observations.write(observation("x", 2)); });
+    a().at(2s, [this] { observations.write(an_observation("x", 2)); });
   });
   const std::vector<link::LostSample> expected{
       {1500ms, "radio", "roci/event", "", "a", 1, 1, 1, link::Fate::lost},
@@ -331,7 +331,7 @@ TEST(LiveLinkGate, AppliesTheModelOnTheLiveClock) {
     delays.push_back(b.now() - temporal::Time(heard.header().stamp_us()));
   });
   const auto out = advertise(a, topics::observation);
-  out.write(observation("x", 1));
+  out.write(an_observation("x", 1));
   const auto end = clock::wall_now() + clock::wall_seconds(60);
   while (delays.empty() && clock::wall_now() < end) b.spin_once(5ms);
   ASSERT_EQ(delays.size(), 1U);
