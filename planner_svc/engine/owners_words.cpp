@@ -1,8 +1,8 @@
 #include "planner_svc/engine/owners_words.hpp"
 
 #include <algorithm>
-#include <map>
 #include <optional>
+#include <vector>
 
 namespace roci::planner::engine {
 
@@ -21,30 +21,38 @@ std::string described(const std::string& name, const std::vector<Object>& object
   return name + " (" + properties + ")";
 }
 
-// What speaks against the object as the goal of the way.
+// What speaks against an object as the goal of a way.
 struct Against {
   const FunctionUse* use =
-      nullptr;         // null: of every function some tuple with it has a value, or nobody was asked
-  bool proved = true;  // of every tuple with it its owner knows that there is no value
+      nullptr;         // null: each function has a value for some tuple with it, or nobody was asked
+  bool proved = true;  // for every tuple with it the owner knows that there is no value
+};
+
+struct OneFunction {
+  std::string name;
+  std::optional<Against> against;  // none: some tuple has a value
 };
 
 // One function may have no value where another has: an arm that cannot carry a load there, and can go there without.
 Against against(const std::string& object, std::span<const FunctionUse> uses) {
-  std::map<std::string, std::optional<Against>> by_function;  // nothing: some tuple has a value
+  std::vector<OneFunction> functions;  // as they were asked
   for (const FunctionUse& use : uses) {
     const auto& arguments = use.call.arguments;
     const bool of_others =
         std::ranges::any_of(arguments, [&](const std::string& one) { return one != object; });
     if (arguments.empty() || arguments.back() != object || !of_others) continue;
-    std::optional<Against>& out = by_function.try_emplace(use.call.function, Against{}).first->second;
+    auto function = std::ranges::find(functions, use.call.function, &OneFunction::name);
+    if (function == functions.end())
+      function = functions.insert(functions.end(), {use.call.function, Against{}});
+    std::optional<Against>& out = function->against;
     if (use.answer.outcome == FunctionOutcome::value) out.reset();
     if (!out) continue;
     const bool proved = use.answer.outcome == FunctionOutcome::unreachable;
     if (out->use == nullptr || (out->proved && !proved)) out->use = &use;
     out->proved = out->proved && proved;
   }
-  for (const auto& [function, out] : by_function)
-    if (out) return *out;
+  for (const OneFunction& function : functions)
+    if (function.against) return *function.against;
   return {};
 }
 
