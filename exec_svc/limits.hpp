@@ -23,10 +23,7 @@ inline constexpr std::size_t kAnswers = 10'000;
 inline constexpr std::size_t kTimelines = 10'000;
 /// Bounds the owners of models whose versions are kept: ten services for each of 25 robots.
 inline constexpr std::size_t kModelOwners = 256;
-/// Bytes of a leader's whole journal that a follower takes in, which keeps them in memory until all have come: a
-/// hundred times what a mission of a month leaves (bench/endurance).
-inline constexpr std::size_t kJournalCopyBytes = std::size_t{256} << 20;
-/// Bytes of a name that is kept: of a timeline, an issuer, an id, an owner.
+/// Bounds the bytes of a name that is kept: of a timeline, an issuer, an id, an owner.
 inline constexpr std::size_t kNameBytes = 1'024;
 
 }  // namespace roci::exec

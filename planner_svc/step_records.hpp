@@ -15,6 +15,7 @@
 
 namespace roci::planner {
 
+/// Keeps the steps of an engine that plans all the time as files of the run folder, within bounds.
 class StepRecords {
  public:
   struct Bounds {

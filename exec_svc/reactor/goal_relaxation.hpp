@@ -47,11 +47,11 @@ struct RelaxationStep {
   std::string reason;  ///< with leave_out_soft: why the soft goal would leave if the others fit without it
 };
 
-/// The next step after a reply that says that the goals do not fit (temporal::speaks_of_goals). What the planner proves
-/// out of reach, or cannot tell for want of a value that an owner did not find, takes no other goal with it. One goal
-/// leaves at a time, unless hard ones alone are blamed: the others may be within reach once it is gone. A proof that
-/// blames hard goals alone may hold only because of what the soft ones demand (a search leaves out what cannot serve all
-/// goals), hence leave_out_soft.
+/// Returns the next step after a reply that says that the goals do not fit (temporal::speaks_of_goals). What the
+/// planner proves out of reach, or cannot tell for want of a value that an owner did not find, takes no other goal with
+/// it. One goal leaves at a time, unless hard ones alone are blamed: the others may be within reach once it is gone. A
+/// proof that blames hard goals alone may hold only because of what the soft ones demand (a search prunes what cannot
+/// serve all goals), hence leave_out_soft.
 RelaxationStep relax(const PlanReply& reply, const goals::GoalSet& goals,
                      const mission::MissionModel& mission, const Relaxation& relaxed);
 
@@ -59,8 +59,8 @@ RelaxationStep relax(const PlanReply& reply, const goals::GoalSet& goals,
 std::optional<goals::GoalKey> soft_goal_to_give_up(const PlanReply& reply, const goals::GoalSet& goals,
                                                    const Relaxation& relaxed);
 
-/// The hard goals of which some have to leave where relax() gives up hard ones:
-/// those that the planner blames, else all that are open.
+/// Returns the hard goals among which some have to leave where relax() gives up hard ones: those that the planner blames,
+/// else all that are open.
 std::vector<goals::GoalKey> hard_goals_at_stake(const PlanReply& reply, const goals::GoalSet& goals);
 
 /// Returns the next goal to leave out where the planner refuses a problem as invalid without naming a goal: the newest
@@ -68,8 +68,9 @@ std::vector<goals::GoalKey> hard_goals_at_stake(const PlanReply& reply, const go
 std::optional<goals::GoalKey> next_suspect(const goals::GoalSet& goals,
                                            const std::optional<goals::GoalKey>& suspect);
 
-/// Why a goal leaves after such a reply: in the words of the mission, and behind "details: " in those of the planner. Of
-/// a goal that nothing blames it claims nothing alone, but that no plan achieves all goals of the call, by their names.
+/// Returns why a goal leaves after such a reply: in the words of the mission, and behind "details: " in those of the
+/// planner. Of a goal that nothing blames it claims nothing alone, but that no plan achieves all goals of the call, by
+/// their names.
 std::string reason_to_leave(const PlanReply& reply, const goals::GoalSet& goals,
                             const mission::MissionModel& mission, const goals::GoalKey& key,
                             const Relaxation& relaxed);

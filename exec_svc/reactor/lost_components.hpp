@@ -13,6 +13,7 @@
 
 namespace roci::exec::reactor {
 
+/// Knows the components whose services have been away for as long as the mission allows, and what they then count as.
 class LostComponents {
  public:
   /// All outlive this.

@@ -4,7 +4,6 @@
 #include <iterator>
 #include <utility>
 
-#include "exec_svc/limits.hpp"
 #include "exec_svc/standby/standby_wire_service.hpp"
 #include "services/log/log.hpp"
 #include "services/node/make_event.hpp"

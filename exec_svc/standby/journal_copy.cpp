@@ -2,8 +2,6 @@
 
 #include <utility>
 
-#include "exec_svc/limits.hpp"
-
 namespace roci::exec::standby {
 
 using journal::JournalError;

@@ -2,6 +2,7 @@
 // unharmed.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -12,8 +13,12 @@
 
 namespace roci::exec::standby {
 
+/// Bounds the bytes of a leader's whole journal that a follower takes in, which keeps them in memory until all have
+/// come: a hundred times what a mission of a month leaves (bench/endurance).
+inline constexpr std::size_t kJournalCopyBytes = std::size_t{256} << 20;
+
 /// Takes only what fits on the journal as it is, or a whole journal in its place. Of a whole one that arrives it keeps
-/// kJournalCopyBytes at most, whatever comes (exec_svc/limits.hpp).
+/// kJournalCopyBytes at most, whatever comes.
 class JournalCopy {
  public:
   /// `before_replacement` is called with the journal complete, right before another one takes its place; what it throws
@@ -28,8 +33,8 @@ class JournalCopy {
     known,    ///< this journal has it
     gap,      ///< something before it is missing, or this journal has another past
     corrupt,  ///< refused
-    excess,  ///< more than there is room for, or than was announced: refused, and what came of that journal forgotten
-    old,  ///< its leader's epoch is over; refused
+    excess,  ///< more than there is room for, or than was announced: refused, and all of that journal forgotten
+    old,     ///< its leader's epoch is over; refused
   };
   /// Takes a chunk; `epoch` is the latest that the follower knows of.
   Result take(const Chunk& chunk, std::uint64_t epoch);

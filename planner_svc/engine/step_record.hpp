@@ -67,6 +67,7 @@ std::string record_head(const RecordedEngine& engine);
 std::string record_entry(const StepInputs& inputs);
 std::string record_entry(const StepOutcome& outcome);
 
+/// Holds one step as it was recorded: what the engine heard, and what came of it.
 struct RecordedStep {
   StepInputs inputs;
   std::optional<StepOutcome> outcome{};  ///< nothing: the process ended in this step

@@ -15,7 +15,7 @@
 #include "services/transport/transport.hpp"
 
 namespace roci::services::node {
-
+/// Says why a sample reached no handler.
 enum class SampleRejection {
   malformed,     ///< It does not decode, or says what no sample of its type can say.
   too_large,     ///< It is larger than its topic allows (topics/topics.hpp).
@@ -26,7 +26,7 @@ enum class SampleRejection {
 
 /// "malformed", "too large", …
 const char* to_string(SampleRejection);
-
+/// Counts rejected samples by topic and reason, and reports them in the log and by the event sample.refused.
 class RejectedSamples {
  public:
   using Lookup = std::function<std::optional<transport::Participant>(const transport::Guid&)>;

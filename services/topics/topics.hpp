@@ -23,7 +23,7 @@
 #include "services/transport/scope.hpp"
 
 namespace roci::services::topics {
-
+/// Describes a topic of samples of type T.
 template <class T>
 struct Topic {
   const char* name;

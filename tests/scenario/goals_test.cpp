@@ -109,8 +109,10 @@ TEST(Goals, OneThatIsGivenUpSaysTheTrueReason) {
           HasSubstr("(says pathplan_svc, model 1)"))));
   EXPECT_THAT(mission.goal("steep").reason, HasSubstr("place-steep (x=190 y=60)"));
   EXPECT_THAT(mission.goal("steep").reason, HasSubstr("\ndetails: "));
-  for (const std::string& event : mission.events())
-    if (event.find("goal.dropped ") != std::string::npos) EXPECT_THAT(event, HasSubstr(": out of reach: "));
+  for (const std::string& event : mission.events()) {
+    if (event.find("goal.dropped ") == std::string::npos) continue;
+    EXPECT_THAT(event, HasSubstr(": out of reach: "));
+  }
 }
 
 // The domain derives "archived" from "sent"; no observation stands for it by itself.

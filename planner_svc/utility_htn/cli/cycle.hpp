@@ -13,7 +13,7 @@
 
 namespace roci::planner::utility_htn::cli {
 
-/// Is a step of the record that had something to do, as it was flown and as it was planned again.
+/// Compares a step of the record that had something to do: as it was flown, and as it was planned again.
 struct ReplannedCycle {
   std::uint64_t number = 0;  ///< counts from 1
   std::uint64_t step = 0;    ///< of the record, from 1: most steps hear something and plan nothing
@@ -23,6 +23,7 @@ struct ReplannedCycle {
   bool as_flown() const { return !flown || *flown == now; }
 };
 
+/// Counts what a record held, and in how many of its cycles the engine planned otherwise than it had in flight.
 struct Replanned {
   std::uint64_t cycles = 0;
   std::uint64_t steps = 0;

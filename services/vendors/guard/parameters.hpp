@@ -19,6 +19,7 @@ bool may_speak_for(const GuidPrefix& sender, std::span<const std::uint8_t> other
 /// Says where a parameter list stands.
 enum class ListKind { inline_qos, discovery };
 
+/// Says what became of a parameter list, and how long it is.
 struct ListAdmission {
   DatagramAdmission admission = DatagramAdmission::pass;
   std::size_t size = 0;  ///< Of the list with its sentinel, in bytes; 0 unless it passes.

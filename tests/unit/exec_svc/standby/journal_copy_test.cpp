@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <random>
 
-#include "exec_svc/limits.hpp"
 #include "exec_svc/standby/journal_feed.hpp"
 
 namespace roci::exec {
@@ -246,7 +245,7 @@ TEST_F(JournalCopyTest, AWholeJournalBeyondTheBoundIsForgottenAndAskedForAnew) {
     return chunk;
   };
   Chunk endless = parts[0];
-  endless.parts = kJournalCopyBytes / standby::kPartBytes + 1;
+  endless.parts = standby::kJournalCopyBytes / standby::kPartBytes + 1;
   EXPECT_EQ(copy.take(sealed(endless), 2), Result::excess);
   Chunk large = parts[0];
   large.bytes.resize(standby::kPartBytes + 1);
