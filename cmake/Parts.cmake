@@ -165,6 +165,12 @@ function(roci_test)
     add_test(NAME ${PART_NAME} COMMAND ${PART_NAME})
     set_tests_properties(${PART_NAME} PROPERTIES ${properties})
   else()
-    gtest_discover_tests(${PART_NAME} NO_PRETTY_VALUES DISCOVERY_MODE PRE_TEST PROPERTIES ${properties})
+    # CTest merges the labels of tests of one name. Of two programs with the same sources, one of which is for ./check --full alone, it would
+    # leave both out of ./check.
+    set(prefix "")
+    if(PART_LABEL STREQUAL "full")
+      set(prefix "full/")
+    endif()
+    gtest_discover_tests(${PART_NAME} NO_PRETTY_VALUES DISCOVERY_MODE PRE_TEST TEST_PREFIX "${prefix}" PROPERTIES ${properties})
   endif()
 endfunction()

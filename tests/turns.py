@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 """turns.py BUILD: holds tests/turns.txt to its word. Each row names tests that there are and that are not in ./check --full alone, none stands
 twice, and the three turns take about as long. That no test is left out follows: ./check leaves out what stands there under another turn, and
-./check --full does not read the file."""
+./check --full does not read the file. No two tests have one name, since CTest would merge their labels."""
 import json
 import re
 import subprocess
 import sys
+from collections import Counter
 from pathlib import Path
 
 TURNS = 3
@@ -14,14 +15,17 @@ UNEVEN = 1.25  # the longest turn by the shortest
 
 def main(build):
     listed = subprocess.run(["ctest", "--test-dir", build, "--show-only=json-v1"], check=True, capture_output=True, text=True).stdout
-    names = []
+    names, all_names = [], []
     for test in json.loads(listed)["tests"]:
         labels = next((p["value"] for p in test.get("properties", []) if p["name"] == "LABELS"), [])
+        all_names.append(test["name"])
         if "full" not in labels:
             names.append(test["name"])
     page = Path(__file__).with_name("turns.txt")
     seconds = [0.0] * TURNS
-    told, taken = [], {}
+    twice = sorted(name for name, times in Counter(all_names).items() if times > 1)
+    told = [f"two tests are named {name}, so that CTest takes the labels of both for each; name them apart" for name in twice]
+    taken = {}
     for number, line in enumerate(page.read_text(encoding="utf-8").splitlines(), 1):
         if not line or line.startswith("#"):
             continue

@@ -124,10 +124,7 @@ TEST(GoalsServed, WithoutNamedGoalsNothingIsSaid) {
 std::vector<std::string> blocked(const Result& result) {
   EXPECT_EQ(result.verdict, Verdict::unsolvable) << result.reason;
   std::vector<std::string> facts;
-  for (const call::BlockedFact& one : result.blocked) {
-    facts.push_back(one.fact);
-    EXPECT_NE(one.reason, "");
-  }
+  for (const call::BlockedFact& one : result.blocked) facts.push_back(one.fact);
   return facts;
 }
 
