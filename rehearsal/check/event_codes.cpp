@@ -6,7 +6,7 @@ const std::vector<std::string>& event_codes() {
   // clang-format off
   static const std::vector<std::string> codes = {
       "ack.foreign", "answer.no_room", "calls.damaged", "calls.resumed", "calls.settling", "calls.unwritten", "clock.drift", "clock.offset", "clock.set", "command.epoch_jump",
-      "command.foreign", "commander.doubled", "contract.mismatch", "datagram.refused", "disk.full", "disk.room", "epoch.refused",
+      "command.foreign", "commander.doubled", "component.lost", "contract.mismatch", "datagram.refused", "disk.full", "disk.room", "epoch.refused",
       "epoch.taken", "executive.resumed", "fact.left_out", "fallback.failed", "goal.accepted",
       "goal.achieved", "goal.dropped", "goal.failed", "goal.merged", "goal.no_room", "goal.recalled",
       "goal.refused", "goal.rejected", "goal.suspected", "goal.weighed", "hazard.refused", "hazard.seen", "image.unreadable", "journal.damaged",
@@ -16,7 +16,7 @@ const std::vector<std::string>& event_codes() {
       "place.unusable", "plan.adopted", "plan.broken", "plan.conflict", "plan.finished", "plan.kept",
       "plan.malformed", "plan.outdated", "plan.refused", "plan.relaunched", "plan.retry", "plan.waits", "plan.wanted",
       "planner.blocked", "planner.cycle", "planner.defect", "planner.measured", "planner.network_damaged",
-      "planner.network_unwritten", "planner.no_room", "planner.verdict", "planner.warning", "pose.unusable",
+      "planner.network_unwritten", "planner.no_room", "planner.record_ended", "planner.verdict", "planner.warning", "pose.unusable",
       "recovery.contingency", "recovery.push", "recovery.retry", "reserve.spent", "robot.safe", "robot.safing", "robot.unsafe", "run.foreign", "sample.refused",
       "scenario.as_expected", "scenario.over", "scenario.time-up", "scenario.unexpected", "science.find",
       "science.no_room", "service.died", "service.doubled", "service.found", "service.lost",
