@@ -59,8 +59,8 @@ RelaxationStep relax(const PlanReply& reply, const goals::GoalSet& goals,
 std::optional<goals::GoalKey> soft_goal_to_give_up(const PlanReply& reply, const goals::GoalSet& goals,
                                                    const Relaxation& relaxed);
 
-/// Returns the hard goals among which some have to leave where relax() gives up hard ones: those that the planner blames,
-/// else all that are open.
+/// Returns the hard goals among which some have to leave where relax() gives up hard ones: those that the planner
+/// blames, else all that are open.
 std::vector<goals::GoalKey> hard_goals_at_stake(const PlanReply& reply, const goals::GoalSet& goals);
 
 /// Returns the next goal to leave out where the planner refuses a problem as invalid without naming a goal: the newest

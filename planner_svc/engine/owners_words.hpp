@@ -19,10 +19,10 @@ struct OwnersWords {
 };
 
 /// Returns a sentence about one of the named objects, for which the owner of a function gave no value of that function
-/// with any other object, or an empty one if there is no such object. E.g. "place-far (x=190 y=60): the rover cannot stand there (steep) (says
-/// pathplan_svc, model 1)", or without words of the owner "place-far (x=190 y=60) is unreachable (says pathplan_svc,
-/// traverse_time, model 1)". Where an owner only found none with the effort spent, nothing is proved and the sentence
-/// says so: "no way to place-far (x=190 y=60) is known: pathplan_svc found none with the effort spent (…)".
+/// with any other object, or an empty one if there is no such object. E.g. "place-far (x=190 y=60): the rover cannot
+/// stand there (steep) (says pathplan_svc, model 1)", or without words of the owner "place-far (x=190 y=60) is
+/// unreachable (says pathplan_svc, traverse_time, model 1)". Where an owner only found none with the effort spent,
+/// nothing is proved and the sentence says so: "no way to place-far (x=190 y=60) is known: pathplan_svc found none …".
 OwnersWords words_against(const std::set<std::string>& named, const std::vector<Object>& objects,
                           std::span<const FunctionUse> uses);
 
