@@ -287,10 +287,11 @@ class Planner(unittest.TestCase):
         (self.folder / "domain.pddl").write_text(ENDLESS)
         (self.folder / "problem.pddl").write_text(NEVER)
         files = [str(self.folder / "domain.pddl"), str(self.folder / "problem.pddl")]
-        self.command = [str(BIN / "roci-plan"), *files, "--evaluations", "3000"]
+        self.command = [str(BIN / "roci-plan"), *files, "--evaluations"]
 
     def test_a_terminal_sees_what_it_is_doing_on_one_line(self) -> None:
-        terminal = Terminal(self.command, 100, 24, {**os.environ, "TERM": "xterm"})
+        """The line is drawn every quarter of a second, so the search has to take longer than that."""
+        terminal = Terminal([*self.command, "15000"], 100, 24, {**os.environ, "TERM": "xterm"})
         self.assertEqual(terminal.finish(), 4, terminal.text)
         drawn = [part for part in re.split(r"\r\x1b\[K", terminal.text)[1:-1] if part]
         self.assertTrue(drawn, terminal.text)
@@ -300,7 +301,7 @@ class Planner(unittest.TestCase):
         self.assertIn("timeout", terminal.text.rsplit("\x1b[K", 1)[1], "the line is gone before the verdict")
 
     def test_a_pipe_sees_none_of_it(self) -> None:
-        done = subprocess.run(self.command, capture_output=True, text=True, check=False)
+        done = subprocess.run([*self.command, "3000"], capture_output=True, text=True, check=False)
         self.assertEqual(done.returncode, 4)
         self.assertNotIn("\x1b", done.stdout + done.stderr)
 
