@@ -33,6 +33,9 @@ def main(build):
         if not row:
             told.append(f"{page}:{number}: no row of turn, seconds, name: {line}")
             continue
+        if "(" in row[3]:
+            told.append(f"{page}:{number}: CTest's expressions have room for nine groups, which ./check needs: write a row for each name")
+            continue
         seconds[int(row[1])] += float(row[2])
         # As ./check has it.
         whole = re.compile(rf"(^|/)({row[3]})([/_](inproc|fastdds|cyclonedds|mixed))?( |$)")
