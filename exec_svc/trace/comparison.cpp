@@ -103,8 +103,11 @@ class Comparer {
 
   void accept(Gap& gap) const {
     for (const Accepted* entry : accepted_) {
-      const auto old_line = [&](std::size_t i) { return entry->before->found_in(out_.before[i].text); };
-      const auto new_line = [&](std::size_t i) { return entry->after->found_in(out_.after[i].text); };
+      const auto accepts = [entry](const Line& line, const Pattern& pattern) {
+        return line.time >= entry->since && pattern.found_in(line.text);
+      };
+      const auto old_line = [&](std::size_t i) { return accepts(out_.before[i], *entry->before); };
+      const auto new_line = [&](std::size_t i) { return accepts(out_.after[i], *entry->after); };
       std::size_t count = 0;
       if (entry->before && entry->after) {
         count = accept_pairs(gap, old_line, new_line);

@@ -96,11 +96,19 @@ FreeOrder free_order_in(const Entry& entry) {
   return {entry.at("kinds").texts(), reason_in(entry), entry.place()};
 }
 
+temporal::Time since_in(const Entry& entry) {
+  const auto since = entry.find("since");
+  if (!since) return temporal::Time{0};
+  if (since->number() < 0 || since->number() > 1e9)
+    since->fail("'" + since->text() + "' is no mission time; give seconds from 0 to 1e9");
+  return temporal::seconds(since->number());
+}
+
 Accepted accepted_in(const Entry& entry) {
-  entry.allow_only({"scenario", "old", "new", "reason"});
+  entry.allow_only({"scenario", "since", "old", "new", "reason"});
   const auto scenario = pattern_at(entry, "scenario");
-  Accepted out{scenario ? *scenario : Pattern(""), pattern_at(entry, "old"), pattern_at(entry, "new"),
-               reason_in(entry), entry.place()};
+  Accepted out{scenario ? *scenario : Pattern(""), since_in(entry),  pattern_at(entry, "old"),
+               pattern_at(entry, "new"),           reason_in(entry), entry.place()};
   if (!out.before && !out.after)
     entry.fail("neither 'old' nor 'new' says which lines are accepted; give one or both");
   return out;

@@ -54,9 +54,10 @@ struct FreeOrder {
 
 /// Describes a difference that remains. With `before` alone it is a line that only OLD has, with `after`
 /// alone one that only NEW has, with both a line that stands for the other one at the same mission time.
-/// Patterns see OLD lines with their new names.
+/// Patterns see OLD lines with their new names. Lines before the mission time `since` are not accepted.
 struct Accepted {
   Pattern scenario;
+  temporal::Time since{0};
   std::optional<Pattern> before;
   std::optional<Pattern> after;
   std::string reason;

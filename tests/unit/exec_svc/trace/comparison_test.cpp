@@ -105,6 +105,14 @@ TEST(ComparisonTest, AcceptingOneSideAcceptsNoChange) {
       compare(with(kOld, "2 ack drive 1\n", ""), kOld, "accepted: [{new: '^ack', reason: sent}]").equal());
 }
 
+TEST(ComparisonTest, NothingIsAcceptedBeforeItsTime) {
+  const std::string changed = with(kOld, "2 ack drive 1", "2 ack drive 2");
+  EXPECT_TRUE(
+      compare(kOld, changed, "accepted: [{since: 2, old: '.', new: '.', reason: counts on}]").equal());
+  EXPECT_FALSE(
+      compare(kOld, changed, "accepted: [{since: 2.000001, old: '.', new: '.', reason: later}]").equal());
+}
+
 TEST(ComparisonTest, AnAcceptedDifferenceHoldsInItsScenarioAlone) {
   const std::string sections = "accepted: [{scenario: '^nom', old: '^ack', reason: not sent}]";
   const TraceMap map = map_of(sections);

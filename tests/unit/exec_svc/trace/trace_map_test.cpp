@@ -63,6 +63,8 @@ TEST(TraceMapTest, BadMapsAreRefusedWithPlaceAndRemedy) {
   EXPECT_THAT(about("accepted: [{old: a}]"), HasSubstr("'reason' is missing"));
   EXPECT_THAT(about("accepted: [{old: a, reason: ''}]"), HasSubstr("say why"));
   EXPECT_THAT(about("accepted: [{reason: b}]"), HasSubstr("neither 'old' nor 'new'"));
+  EXPECT_THAT(about("accepted: [{old: a, since: later, reason: b}]"), StartsWith("a.map.yaml:2:28: "));
+  EXPECT_THAT(about("accepted: [{old: a, since: -1, reason: b}]"), HasSubstr("no mission time"));
   EXPECT_THAT(about("accepted: {old: a}"), HasSubstr("expected a list"));
   EXPECT_THAT(about("names: [a"), HasSubstr("not valid YAML"));
 }
