@@ -24,6 +24,8 @@ import time
 import unittest
 from pathlib import Path
 
+from run_tree import RunTree, write_program
+
 SOURCE, BIN = Path(sys.argv[1]), Path(sys.argv[2])
 LIMIT_S = 120  # of a whole flight, on a machine that does other things, too
 CONTROL = re.compile(r"\x1b\[[0-9;?]*[A-Za-z]")
@@ -70,30 +72,20 @@ class Terminal:
 
 class Place(unittest.TestCase):
     def setUp(self) -> None:
-        self.root = Path(tempfile.mkdtemp())
-        self.addCleanup(shutil.rmtree, self.root)
-        shutil.copy(SOURCE / "run", self.root)
-        (self.root / "cmake").mkdir()
-        (self.root / "cmake/setup.sh").write_text(f"#!/bin/sh\necho set-up $* >>{self.root}/called\n")
-        (self.root / "cmake/setup.sh").chmod(0o755)
-        (self.root / "build/release").mkdir(parents=True)
-        (self.root / "build/release/bin").symlink_to(BIN)
-        self.environment = {
-            **os.environ, "TERM": "xterm", "XDG_STATE_HOME": str(self.root / "state"),
-            "XDG_RUNTIME_DIR": str(self.root), "ROCI_DDS": "cyclonedds",
-        }  # fmt: skip
+        self.tree = RunTree(self, SOURCE, BIN)
+        self.environment = {**self.tree.environment, "TERM": "xterm", "ROCI_DDS": "cyclonedds"}
 
     def terminal(self, columns: int, rows: int, *words: str) -> Terminal:
-        return Terminal([str(self.root / "run"), str(SOURCE / "missions/planetary"), *words], columns, rows, self.environment)
+        return Terminal([str(self.tree.run), str(SOURCE / "missions/planetary"), *words], columns, rows, self.environment)
 
 
 class Run(Place):
     def test_help_answers_at_once(self) -> None:
         for word in ("-h", "--help"):
-            done = subprocess.run([self.root / "run", word], capture_output=True, text=True, check=False)
+            done = subprocess.run([self.tree.run, word], capture_output=True, text=True, check=False)
             self.assertEqual(done.returncode, 0)
             self.assertIn("--scenario", done.stdout)
-        self.assertFalse((self.root / "called").exists(), "nothing is installed or built for it")
+        self.assertFalse(self.tree.called.exists(), "nothing is installed or built for it")
 
     def test_a_terminal_sees_the_view_with_its_map_and_then_the_outcome(self) -> None:
         for columns, rows in ((80, 24), (150, 40)):
@@ -131,20 +123,20 @@ class BadMission(Place):
     """A mission with a slip: it is told, and nothing starts."""
 
     def test_its_findings_are_told_and_nothing_starts(self) -> None:
-        mission = self.root / "slipped"
+        mission = self.tree.root / "slipped"
         shutil.copytree(SOURCE / "missions/planetary", mission)
         file = mission / "mission.yaml"
         text = file.read_text()
         file.write_text(text.replace("fallback: stop", "fallback: sotp", 1))
         line = text[: text.index("fallback: stop")].count("\n") + 1
         done = subprocess.run(
-            [self.root / "run", mission, "--headless", "--json"], capture_output=True, text=True, check=False,
+            [self.tree.run, mission, "--headless", "--json"], capture_output=True, text=True, check=False,
             env=self.environment, stdin=subprocess.DEVNULL, timeout=LIMIT_S,
         )  # fmt: skip
         self.assertEqual(done.returncode, 2, done.stderr)
         self.assertRegex(done.stderr, rf"mission\.yaml:{line}:\d+: error: .*'sotp'")
         self.assertEqual(done.stdout, "", "no launcher has spoken")
-        self.assertFalse((self.root / "state").exists(), "there is no run folder")
+        self.assertFalse(self.tree.state.exists(), "there is no run folder")
 
 
 class SetUpPlace(unittest.TestCase):
@@ -160,8 +152,7 @@ class SetUpPlace(unittest.TestCase):
         self.environment = {**os.environ, "PATH": f"{self.folder}:/usr/bin:/bin", "ROCI_YES": "", "TERM": "xterm"}
 
     def stand_in(self, program: str, does: str) -> None:
-        (self.folder / program).write_text(f"#!/bin/sh\n{does}\n")
-        (self.folder / program).chmod(0o755)
+        write_program(self.folder / program, does)
 
 
 class MissingPackages(SetUpPlace):

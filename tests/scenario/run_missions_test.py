@@ -8,13 +8,13 @@ says that it was called. But for the flight a stand-in for the launcher says wha
 from __future__ import annotations
 
 import json
-import os
 import shutil
 import subprocess
 import sys
-import tempfile
 import unittest
 from pathlib import Path
+
+from run_tree import RunTree
 
 SOURCE, BIN = Path(sys.argv[1]), Path(sys.argv[2])
 MISSIONS = sorted(file.parent.name for file in (SOURCE / "missions").glob("*/mission.yaml"))
@@ -22,29 +22,16 @@ MISSIONS = sorted(file.parent.name for file in (SOURCE / "missions").glob("*/mis
 
 class RunMissions(unittest.TestCase):
     def setUp(self) -> None:
-        self.root = Path(tempfile.mkdtemp())
-        self.addCleanup(shutil.rmtree, self.root)
-        shutil.copy(SOURCE / "run", self.root)
-        (self.root / "cmake").mkdir()
-        (self.root / "cmake/setup.sh").write_text(f"#!/bin/sh\necho set-up $* >>{self.root}/called\n")
-        (self.root / "cmake/setup.sh").chmod(0o755)
-        self.bin = self.root / "build/release/bin"
-        self.bin.mkdir(parents=True)
-        for program in BIN.iterdir():
-            (self.bin / program.name).symlink_to(program)
+        self.tree = RunTree(self, SOURCE, BIN)
 
     def run_with(self, *words: str) -> subprocess.CompletedProcess[str]:
-        state = {"XDG_STATE_HOME": str(self.root / "state"), "XDG_RUNTIME_DIR": str(self.root)}
         return subprocess.run(
-            [self.root / "run", *words], capture_output=True, text=True, check=False, stdin=subprocess.DEVNULL,
-            env={**os.environ, **state},
+            [self.tree.run, *words], capture_output=True, text=True, check=False, stdin=subprocess.DEVNULL,
+            env=self.tree.environment,
         )  # fmt: skip
 
     def with_stand_in(self) -> None:
-        launcher = self.bin / "roci-launch"
-        launcher.unlink()
-        launcher.write_text("#!/bin/sh\necho launched $*\n")
-        launcher.chmod(0o755)
+        self.tree.stand_in("roci-launch", "echo launched $*")
 
     def test_each_shipped_mission_passes_the_check_and_is_launched(self) -> None:
         self.assertIn("orbital", MISSIONS)
@@ -57,7 +44,7 @@ class RunMissions(unittest.TestCase):
 
     def test_a_mission_with_a_mistake_is_not_launched(self) -> None:
         self.with_stand_in()
-        wrong = self.root / "wrong"
+        wrong = self.tree.root / "wrong"
         shutil.copytree(SOURCE / "missions/orbital", wrong)
         text = (wrong / "mission.yaml").read_text()
         (wrong / "mission.yaml").write_text(text.replace("(seat power-1 s0)", "(saet power-1 s0)"))
@@ -69,7 +56,7 @@ class RunMissions(unittest.TestCase):
         done = self.run_with("orbital", "--headless", "--json", "--speed", "max", "--dds", "inproc")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(json.loads(done.stdout.splitlines()[-1])["result"], "achieved")
-        self.assertIn("set-up release programs", (self.root / "called").read_text())
+        self.assertIn("set-up release programs", self.tree.called.read_text())
 
 
 if __name__ == "__main__":
