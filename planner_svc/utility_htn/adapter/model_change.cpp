@@ -3,8 +3,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "planner_svc/utility_htn/adapter/fit.hpp"
-#include "planner_svc/utility_htn/adapter/utility_engine.hpp"
+#include "planner_svc/utility_htn/adapter/plan_of.hpp"
+#include "planner_svc/utility_htn/adapter/planned_network.hpp"
 #include "planner_svc/utility_htn/assessor/subway_assessor.hpp"
 #include "planner_svc/utility_htn/reading/load.hpp"
 
@@ -66,45 +66,32 @@ cycle::Past past_for(const Network& next, const Network& before, const cycle::Cy
 
 }  // namespace
 
-engine::ModelAnswer UtilityEngine::change(const engine::ModelChange& change, Time now) {
-  engine::ModelAnswer out{change.issuer, change.id, {}};
-  if (change.model) {
-    out.refused = replace_network(change, now);
-  } else if (std::string fault = learn(change.parameter, change.value); !fault.empty()) {
-    out.refused.push_back(std::move(fault));
-  }
-  if (out.refused.empty()) {
-    to_tell_ = to_look_ = true;
-    next_cycle_ = now;
-  }
-  return out;
-}
-
-std::vector<std::string> UtilityEngine::replace_network(const engine::ModelChange& change, Time now) {
+std::optional<Network> PlannedNetwork::usable_network(const engine::ModelChange& change,
+                                                      std::vector<std::string>& refused) const {
   mission::Findings findings;
   std::optional<Network> next =
       reading::take_network(*change.model, "network of " + change.issuer + "/" + change.id, findings);
-  std::vector<std::string> out;
   for (const mission::Finding& finding : findings.sorted())
     if (finding.severity == mission::Severity::error)
-      out.push_back(finding.text() + (finding.remedy.empty() ? "" : "; " + finding.remedy));
-  if (!next) return out;
-  if (next->version <= network_.version)
-    return {"version " + std::to_string(next->version) + " of '" + next->name +
-            "' is not newer than version " + std::to_string(network_.version) + " of '" + network_.name +
-            "', which is in force; raise 'version'"};
-  try {
-    out = in_the_way_of(*next, flattening::flatten_all(*next));
-  } catch (const std::invalid_argument& error) {
-    return {error.what()};
+      refused.push_back(finding.text() + (finding.remedy.empty() ? "" : "; " + finding.remedy));
+  if (!next) return std::nullopt;
+  if (next->version <= network_.version) {
+    refused = {"version " + std::to_string(next->version) + " of '" + next->name +
+               "' is not newer than version " + std::to_string(network_.version) + " of '" + network_.name +
+               "', which is in force; raise 'version'"};
+    return std::nullopt;
   }
-  if (out.empty()) go_on_with(std::move(*next), now);
-  return out;
+  try {
+    refused = in_the_way_of(*next);
+  } catch (const std::invalid_argument& error) {
+    refused = {error.what()};
+  }
+  return refused.empty() ? std::move(next) : std::nullopt;
 }
 
 // What is committed stands (R78): a network that does not have it comes too early.
-std::vector<std::string> UtilityEngine::in_the_way_of(const Network& next,
-                                                      const flattening::Chains& chains) const {
+std::vector<std::string> PlannedNetwork::in_the_way_of(const Network& next) const {
+  const flattening::Chains chains = flattening::flatten_all(next);
   std::vector<std::string> out;
   for (const Block& block : cycle_->blocks()) {
     if (!block.begun() || block.over()) continue;
@@ -121,14 +108,14 @@ std::vector<std::string> UtilityEngine::in_the_way_of(const Network& next,
   return out;
 }
 
-// Blocks that have begun go on as they are; all others are planned anew.
-void UtilityEngine::go_on_with(Network next, Time now) {
+Network PlannedNetwork::replace(Network next, const std::map<std::string, temporal::Value>& newest_values,
+                                Time now) {
   const std::vector<model::TaskIndex> waiting = cycle_->waiting();
-  const Network before = std::exchange(network_, std::move(next));
+  Network before = std::exchange(network_, std::move(next));
   const flattening::Chains old_chains = std::exchange(chains_, flattening::flatten_all(network_));
   const std::unique_ptr<cycle::Cycle> old = std::move(cycle_);
   assessor_ = std::make_unique<assessor::SubwayAssessor>(network_, chains_);
-  cycle_ = std::make_unique<cycle::Cycle>(network_, chains_, *assessor_, *scheduler_, now, settings_);
+  make_cycle(now);
   delivery_.replaced(before);
   if (settings_.downlinks) cycle_->deliver_by(delivery_);
   std::vector<Block> blocks;
@@ -145,8 +132,8 @@ void UtilityEngine::go_on_with(Network next, Time now) {
   for (std::uint32_t i = 0; i < network_.timelines.size(); ++i) {
     const auto& timeline = network_.timelines[i];
     if (!timeline.reported) continue;
-    const auto newest = newest_.find(timeline.name);
-    if (newest == newest_.end()) continue;
+    const auto newest = newest_values.find(timeline.name);
+    if (newest == newest_values.end()) continue;
     const auto heard = number_of(timeline, newest->second);
     if (!heard) continue;
     const bool known =
@@ -157,11 +144,7 @@ void UtilityEngine::go_on_with(Network next, Time now) {
     if (const auto same = index_of(network_.tasks, before.tasks[task].id, &model::Task::id);
         same && network_.tasks[*same].is_template)
       cycle_->request(*same);
-  for (const engine::Goal& goal : std::vector(goals_)) hear_goal(goal);
-  for (const auto& timeline : network_.timelines)
-    if (!timeline.reported &&
-        !index_of(before.timelines, timeline.name, &temporal::timelines::Definition::name))
-      unannounced_.insert(timeline.name);
+  return before;
 }
 
 }  // namespace roci::planner::utility_htn::adapter
