@@ -2,73 +2,31 @@
 // themselves. It is pure. The README has the rules.
 #pragma once
 
-#include <chrono>
 #include <cstdint>
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 
 #include "exec_svc/journal/batch.hpp"
+#include "exec_svc/standby/epochs.hpp"
+#include "exec_svc/standby/lease_message.hpp"
 #include "exec_svc/standby/owner_leases.hpp"
+#include "exec_svc/standby/peer.hpp"
+#include "exec_svc/standby/replication.hpp"
+#include "exec_svc/standby/takeover_right.hpp"
 
 namespace roci::exec::standby {
-
-/// Says whether a member of the pair leads.
-enum class Role { following, leading };
-
-/// Holds what a member says of itself.
-struct LeaseMessage {
-  Member member = Member::first;
-  Role role = Role::following;
-  std::uint64_t epoch = 0;  ///< the highest that it knows of; a leader's own
-  journal::Position has;    ///< position of its journal
-  /// Says of a leader that the other may take over once this message is a term old; says of a follower that
-  /// it will, and that it hears all owners of commands.
-  bool entitled = false;
-  /// Says, of a leader, the most that it has known the other to have; if the other has less, as after losing its disk,
-  /// it is not entitled.
-  journal::Position receipt;
-  bool searching = false;  ///< a follower that has heard no leader for a term
-  Moment said{0};          ///< counts on the clock of who says it
-  Moment echo{0};          ///< the newest `said` heard from the other, on the other's clock
-  bool operator==(const LeaseMessage&) const = default;
-};
-
-/// Holds times that all follow from the term, for how long a leader's message holds. Both members must have
-/// the same one.
-struct LeaseSettings {
-  Moment term = std::chrono::seconds(2);
-  Moment renewal = term / 8;           ///< lies between two messages
-  Moment progress_timeout = term / 2;  ///< bounds the time without progress of the other's journal
-  /// Bounds how late a follower may take over: from a term after it last heard the leader until a term and
-  /// this after it sent what that message echoes. Later its right has lapsed, so that a process that was
-  /// stopped does not use it late and a late message gives no right.
-  Moment takeover_window = term / 2;
-  Moment solo_timeout = 10 * term;  ///< time until one that hears nobody leads in doubt
-  /// Limits an owner's lease after each renewal. It ends before a follower may take over, so that
-  /// the owners of a leader that died are free by then.
-  Moment owner_term = 3 * term / 4;
-};
-
-/// Holds what must be on the disk before anything based on it is sent.
-struct PersistedTerm {
-  std::uint64_t epoch = 0;  ///< the highest heard of or used
-  bool alone = false;       ///< led in that epoch while the other was not entitled
-  /// Holds the newest epoch of the other member from which this one's journal goes on, or that it knew when it planned
-  /// anew.
-  std::uint64_t holds = 0;
-  bool operator==(const PersistedTerm&) const = default;
-};
 
 /// Decides for one member; no epoch has two leaders. A member that cannot agree with the other one leads only with
 /// the leases of all owners (owner_leases.hpp), and a leader commands only with them: so one that is cut off from the
 /// robot never replaces one that has it.
+///
+/// Each of its parts owns what it needs to answer one question: which epochs there are (Epochs), what the other member
+/// said (Peer), whether a follower may lead (TakeoverRight), whether a leader must wait for its follower (Replication),
+/// and whose owners' leases are there (OwnerLeases). What the answers together mean is decided here.
 class Lease {
  public:
-  /// Bounds the step from a known epoch to the next: the pair's epoch rises by two with each change of leader, so
-  /// a wider step comes from no member.
-  static constexpr std::uint64_t kEpochJump = 1000;
-
   /// With `superseded`, this member led until another one did. `owners` are those that the plan commands; with none,
   /// nobody is asked for a lease.
   Lease(Member self, const LeaseSettings& settings, const PersistedTerm& persisted_term, bool superseded,
@@ -114,7 +72,7 @@ class Lease {
   /// Returns since when this leader lacks a lease of an owner; nothing: it has them all.
   std::optional<Moment> unleased_since() const { return unleased_since_; }
   /// Returns whether the other has this position of the journal on its disk.
-  bool held_by_both(const journal::Position& position) const { return other_has(position); }
+  bool held_by_both(const journal::Position& position) const { return peer_.has(position, epochs_.own()); }
   const LeaseSettings& settings() const { return settings_; }
   const OwnerLeases& owner_leases() const { return owner_leases_; }
 
@@ -122,100 +80,55 @@ class Lease {
   /// objects that show the same behave alike from now on.
   template <class See>
   void show(See&& see, Moment now) const {
-    see(persisted_term_.epoch, persisted_term_.alone, role_, other_.has_value(), refused_, now - spoke_at_);
-    if (other_) {
-      const LeaseMessage& said = other_->message;
-      see(said.role, said.epoch, said.has.epoch, said.has.sequence, said.entitled, said.searching);
-      see(now - other_->at, now - said.echo, said.echo < started_);
-    }
+    see(role_, now - spoke_at_, settled_);
+    epochs_.show(see);
+    peer_.show(see, now);
     owner_leases_.show(see, now);
     see(request_.epoch, request_.wanted, unleased_since_ ? now - *unleased_since_ : Moment(-1));
-    see(takeover_forbidden_, entitled_, receipt_.epoch, receipt_.sequence, now - entitled_since_);
-    see(now - leaderless_since_, own_epoch_, settled_, replication_, now - entitled_at_);
-    see(persisted_term_.holds, told_epoch_, unknown_epoch_, most_.epoch, most_.sequence);
-    see(now - behind_since_, behind_, progress_.epoch, progress_.sequence, joined_at_.epoch,
-        joined_at_.sequence);
+    right_.show(see, now);
+    replication_.show(see, now);
   }
 
   LeaseMessage message(const journal::Position& newest) const;
   /// Returns what is to be sent to all owners whenever message() is sent.
   OwnerRequest request() const { return request_; }
-  const PersistedTerm& persisted_term() const { return persisted_term_; }
+  const PersistedTerm& persisted_term() const { return epochs_.persisted(); }
   /// Returns, of a leader that stands down, whether another one leads.
-  bool superseded() const {
-    return refused_ || persisted_term_.epoch > own_epoch_ + (unknown_epoch_ != 0 ? 1 : 0);
-  }
+  bool superseded() const { return epochs_.superseded(); }
   Role role() const { return role_; }
   Member self() const { return self_; }
-  std::uint64_t epoch() const { return persisted_term_.epoch; }
+  std::uint64_t epoch() const { return epochs_.highest(); }
 
  private:
-  /// Names the states of a leader. One that is catching_up waits for receipts, as the follower is nearly
-  /// there; one that is revoking has taken the follower's right back, which the follower may not know.
-  enum class ReplicationState { alone, catching_up, paired, revoking };
-  struct Heard {
-    LeaseMessage message;
-    Moment at{0};
-  };
-  bool is_over() const { return refused_ || persisted_term_.epoch > own_epoch_; }
-  bool believable(std::uint64_t epoch) const;
-  void note_epoch(std::uint64_t epoch);
-  void note_led(std::uint64_t epoch);
   /// Says why a follower would lead, and what that takes.
   struct Claim {
     std::string reason;
     bool agreed = false;    ///< the other agrees and follows: no owner has to be asked first
     bool doubtful = false;  ///< the other may have gone on from this journal, unheard
   };
+  void note_led(std::uint64_t epoch);
   Turn follow(const journal::Position& newest, Moment now);
   std::uint64_t epoch_to_lead(const journal::Position& newest, Moment now) const;
   void ask_owners(bool wanted, const journal::Position& newest, Moment now);
   bool should_hand_over(Moment now) const;
   Turn lead(const Claim& claim, const journal::Position& newest, Moment now);
   Turn keep_leading(const journal::Position& newest, Moment now);
-  void note_progress(const journal::Position& newest, Moment now);
   Turn update_replication(const journal::Position& newest, Moment now);
   std::optional<Claim> claim(const journal::Position& newest, Moment now) const;
-  bool right_holds(const journal::Position& newest, Moment now) const;
   bool wins(const LeaseMessage& other, const journal::Position& newest) const;
-  bool expired(Moment now) const { return now - entitled_at_ >= settings_.term; }
-  bool heard_lately(Moment now) const { return other_ && now - other_->at <= settings_.term; }
-  /// Returns when the newest message of the other was said at the earliest, on this clock, or nothing if that
-  /// is long ago.
-  std::optional<Moment> sent_since() const;
-  bool other_has(const journal::Position& position) const;
-  bool other_is_near(const journal::Position& newest) const;
 
   Member self_;
   LeaseSettings settings_;
-  PersistedTerm persisted_term_;
+  Epochs epochs_;
   Role role_ = Role::following;
-  std::optional<Heard> other_;
-  bool refused_ = false;
+  Peer peer_;
   Moment spoke_at_{0};
   OwnerLeases owner_leases_;
   OwnerRequest request_;
-  std::optional<Moment> unleased_since_;  ///< leading
-
-  bool takeover_forbidden_;    ///< following: the newest leader does not want it to take over
-  bool entitled_ = false;      ///< following: by the leader's newest message, with a journal that has
-  journal::Position receipt_;  ///< this at least,
-  Moment entitled_since_{0};   ///< earliest time at which that was said
-  Moment leaderless_since_;
-  std::uint64_t told_epoch_ = 0;  ///< following: the newest epoch in which the other is said to have led
-  Moment started_;
-
-  std::uint64_t own_epoch_ = 0;      ///< leading
-  std::uint64_t unknown_epoch_ = 0;  ///< the other has led in it, and this leader's journal does not hold it
-  journal::Position most_;           ///< most that the other reported since this one leads
-  bool settled_ = false;             ///< had a turn since it leads; opening its endpoints may take a while
-  ReplicationState replication_ = ReplicationState::alone;
-  Moment entitled_at_{0};  ///< when this leader last said that the other may take over
-  Moment replication_since_{0};
-  Moment behind_since_{0};  ///< since when the other's journal makes no progress
-  bool behind_ = false;
-  journal::Position progress_;
-  journal::Position joined_at_;  ///< newest position when the leader began to wait for the follower
+  TakeoverRight right_;                   // following
+  Replication replication_;               // leading, as all below
+  std::optional<Moment> unleased_since_;  // nothing: it has the leases of all owners
+  bool settled_ = false;                  // had a turn since it leads; opening its endpoints may take a while
 };
 
 }  // namespace roci::exec::standby
