@@ -1,10 +1,11 @@
-// A fingerprint is 64 bits of values (FNV-1a over their bits): equal values have an equal fingerprint, on
-// every run and host.
+// A fingerprint is 64 bits of values: equal values have an equal fingerprint, on every run and host.
 #pragma once
 
 #include <Eigen/Core>
 #include <cstdint>
 #include <string_view>
+
+#include "core/bytes/fnv_1a.hpp"
 
 namespace roci::arm {
 
@@ -23,10 +24,10 @@ class Fingerprint {
     return *this;
   }
 
-  std::uint64_t value() const { return hash_; }
+  std::uint64_t value() const { return hash_.value(); }
 
  private:
-  std::uint64_t hash_ = 0xcbf29ce484222325;
+  bytes::Fnv1a hash_;
 };
 
 }  // namespace roci::arm

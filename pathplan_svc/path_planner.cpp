@@ -1,13 +1,13 @@
 #include "pathplan_svc/path_planner.hpp"
 
 #include <algorithm>
-#include <array>
+#include <bit>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <optional>
 #include <utility>
 
+#include "core/bytes/fnv_1a.hpp"
 #include "pathplan_svc/shortcut.hpp"
 
 namespace roci::pathplan {
@@ -16,14 +16,12 @@ namespace {
 constexpr std::size_t kTreeBytes = 64'000'000;  // a tree has a byte for each cell
 constexpr double kRounding = 1e-9;              // by which a sum of pieces may fall below the whole
 
-// Returns a seed from the coordinates of the ends (FNV-1a over their bytes).
+// Returns a seed from the coordinates of the ends.
 std::uint64_t seed_of(terrain::Point from, terrain::Point to) {
-  const std::array<double, 4> ends{from.x, from.y, to.x, to.y};
-  std::array<unsigned char, sizeof ends> bytes;
-  std::memcpy(bytes.data(), ends.data(), sizeof ends);
-  std::uint64_t hash = 0xcbf29ce484222325ULL;
-  for (const unsigned char byte : bytes) hash = (hash ^ byte) * 0x100000001b3ULL;
-  return hash;
+  bytes::Fnv1a hash;
+  for (const double coordinate : {from.x, from.y, to.x, to.y})
+    hash.add_number(std::bit_cast<std::uint64_t>(coordinate));
+  return hash.value();
 }
 
 // Returns how many cells around a start may be the first on the way out of a margin.

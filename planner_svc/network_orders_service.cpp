@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "core/bytes/crc_32.hpp"
 #include "planner_svc/limits.hpp"
 #include "services/node/make_event.hpp"
 #include "services/topics/topics.hpp"
@@ -143,7 +144,7 @@ std::vector<std::string> NetworkOrders::faults_of(const v1::NetworkOrder& order)
   const auto networks = std::ranges::count_if(waiting_, [](const ModelChange& one) { return !!one.model; });
   if (networks >= static_cast<std::ptrdiff_t>(kNetworksWaiting))
     return {std::to_string(kNetworksWaiting) + " networks wait for the planner already; send it later"};
-  if (checksum_of({order.content().begin(), order.content().end()}) != order.checksum())
+  if (bytes::crc_32({order.content().begin(), order.content().end()}) != order.checksum())
     return {"the checksum is that of another content: bytes were changed on the way; send it again"};
   return {};
 }

@@ -1,11 +1,11 @@
 #include "planner_svc/network_store_service.hpp"
 
-#include <boost/crc.hpp>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "core/bytes/crc_32.hpp"
 #include "core/durable/durable_file.hpp"
 #include "planner_svc/limits.hpp"
 
@@ -62,12 +62,6 @@ NetworkRecord record_of(const json& from) {
 
 }  // namespace
 
-std::uint32_t checksum_of(const std::string& bytes) {
-  boost::crc_32_type crc;
-  crc.process_bytes(bytes.data(), bytes.size());
-  return crc.checksum();
-}
-
 std::optional<KeptNetworks> NetworkStore::load() const {
   const fs::path list = file(kList);
   if (folder_.empty() || !fs::exists(list)) return std::nullopt;
@@ -87,7 +81,7 @@ std::optional<KeptNetworks> NetworkStore::load() const {
   if (out.model.empty()) return out;
   if (fs::path(out.model).filename() != out.model)
     throw std::runtime_error(list.string() + ": names a file of another folder");
-  if (checksum_of(bytes_of(file(out.model))) != out.checksum)
+  if (bytes::crc_32(bytes_of(file(out.model))) != out.checksum)
     throw std::runtime_error(file(out.model).string() + ": is not what was written (checksum)");
   return out;
 }
@@ -98,7 +92,7 @@ void NetworkStore::keep(KeptNetworks& kept, const std::string* model) const {
   std::string name = kept.model;
   std::uint32_t checksum = kept.checksum;
   if (model != nullptr) {
-    checksum = checksum_of(*model);
+    checksum = bytes::crc_32(*model);
     name = "network-" + std::to_string(checksum) + ".htn";
     durable::replace_file(file(name), *model);
   }

@@ -59,7 +59,4 @@ class NetworkStore {
   std::filesystem::path folder_;
 };
 
-/// Returns the CRC-32 of IEEE 802.3.
-std::uint32_t checksum_of(const std::string& bytes);
-
 }  // namespace roci::planner

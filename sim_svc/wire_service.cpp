@@ -1,7 +1,6 @@
 #include "sim_svc/wire_service.hpp"
 
-#include <boost/crc.hpp>
-
+#include "core/bytes/crc_32.hpp"
 #include "services/wire/plan_wire.hpp"
 
 namespace roci::sim::wire {
@@ -231,9 +230,7 @@ v1::NetworkOrder to_wire(const scenario::NetworkStimulus& network) {
   out.order_kind(network.content.empty() ? v1::NETWORK_SET_PARAMETER : v1::NETWORK_REPLACE);
   out.content().assign(network.content.begin(), network.content.end());
   out.content_size(network.content.size());
-  boost::crc_32_type crc;
-  crc.process_bytes(network.content.data(), network.content.size());
-  out.checksum(crc.checksum());
+  out.checksum(bytes::crc_32(network.content));
   out.parameter(network.parameter);
   out.amount(network.value);
   return out;

@@ -10,6 +10,7 @@
 #include "roci_idl/map.h"
 #include "roci_idl/motion.h"
 #include "roci_idl/network.h"
+#include "roci_idl/order.h"
 #include "roci_idl/outlook.h"
 #include "services/owner/command.hpp"
 #include "sim_svc/scenario/scenario.hpp"

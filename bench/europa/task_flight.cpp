@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "core/bytes/fnv_1a.hpp"
 #include "core/temporal/plan_delta.hpp"
 #include "exec_svc/executive/executive.hpp"
 #include "exec_svc/reactor/commitment.hpp"
@@ -46,16 +47,12 @@ struct Rest {
   bool begins = false;
 };
 
-// FNV-1a over all that an executive would act on.
-void add(std::string_view text, std::uint64_t& hash) {
-  for (const char letter : text) hash = (hash ^ static_cast<unsigned char>(letter)) * 0x100000001b3U;
-}
-
-void add(const temporal::PlanDelta& delta, std::uint64_t& hash) {
-  const auto number = [&](auto value) { add(std::to_string(value) + ";", hash); };
+// Hashes all that an executive would act on.
+void add(const temporal::PlanDelta& delta, bytes::Fnv1a& hash) {
+  const auto number = [&](auto value) { hash.add(std::to_string(value) + ";"); };
   number(delta.added.version);
   for (const PlanActivity& activity : delta.added.activities) {
-    add(activity.id, hash);
+    hash.add(activity.id);
     number(activity.start_point);
     number(activity.preferred_start.count());
     number(activity.duration_lower.count());
@@ -151,7 +148,8 @@ class TaskFlight {
   double seconds() const { return flight_.processor_time ? flight_.processor_time() : 0; }
 
   void take(const temporal::PlanDelta& delta) {
-    add(delta, out_.decisions);
+    add(delta, decided_);
+    out_.decisions = decided_.value();
     last_version_ = delta.added.version;
     FlexiblePlan next = plan_;
     std::string fault = temporal::apply(delta, next);
@@ -493,6 +491,7 @@ class TaskFlight {
   std::map<temporal::TimePoint, temporal::Token> blocks_;  // by the end of the last link
   bool finished_ = false;
   int idle_cycles_ = 0;
+  bytes::Fnv1a decided_;  // of all versions
   Flown out_;
 };
 

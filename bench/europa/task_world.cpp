@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/bytes/fnv_1a.hpp"
 #include "core/pseudorandom/split_mix.hpp"
 
 namespace roci::bench::europa {
@@ -11,16 +12,10 @@ namespace {
 
 std::uint64_t mixed(std::uint64_t bits) { return pseudorandom::SplitMix64(bits).next(); }
 
-std::uint64_t hash(std::string_view text) {
-  std::uint64_t out = 0xcbf29ce484222325U;  // FNV-1a
-  for (const char letter : text) out = (out ^ static_cast<unsigned char>(letter)) * 0x100000001b3U;
-  return out;
-}
-
 // Returns a number in (0, 1).
 double uniform(const TaskWorld& world, std::string_view task, std::uint32_t execution, std::uint64_t stream) {
   const std::uint64_t key =
-      mixed(mixed(mixed(world.seed) ^ hash(task)) ^ (std::uint64_t{execution} << 8U | stream));
+      mixed(mixed(mixed(world.seed) ^ bytes::fnv_1a(task)) ^ (std::uint64_t{execution} << 8U | stream));
   return (static_cast<double>(key >> 11U) + 0.5) * 0x1p-53;
 }
 

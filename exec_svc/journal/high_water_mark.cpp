@@ -10,16 +10,12 @@
 #include <system_error>
 #include <utility>
 
+#include "core/bytes/fnv_1a.hpp"
+
 namespace roci::exec::journal {
 namespace {
 
-// Computes FNV-1a over the two numbers as the file has them.
-std::uint64_t checksum(const std::string& text) {
-  std::uint64_t hash = 14695981039346656037ULL;
-  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ULL;
-  return hash;
-}
-
+// Returns the two numbers as the file has them, which its checksum covers.
 std::string numbers_text(const Extent& extent) {
   return std::to_string(extent.epoch) + " " + std::to_string(extent.record);
 }
@@ -29,7 +25,7 @@ std::string to_text(const Extent& extent) {
   std::array<char, 96> out{};
   std::snprintf(out.data(), out.size(), "%20lld %20lld %20llu\n", static_cast<long long>(extent.epoch),
                 static_cast<long long>(extent.record),
-                static_cast<unsigned long long>(checksum(numbers_text(extent))));
+                static_cast<unsigned long long>(bytes::fnv_1a(numbers_text(extent))));
   return out.data();
 }
 
@@ -50,7 +46,7 @@ std::optional<Extent> HighWaterMark::read() const {
   Extent extent;
   std::uint64_t stated = 0;
   if (!(in >> extent.epoch >> extent.record >> stated)) return std::nullopt;
-  return stated == checksum(numbers_text(extent)) ? std::optional(extent) : std::nullopt;
+  return stated == bytes::fnv_1a(numbers_text(extent)) ? std::optional(extent) : std::nullopt;
 }
 
 void HighWaterMark::write(const Extent& extent) noexcept {

@@ -1,10 +1,10 @@
 #include "exec_svc/reactor/ground_orders.hpp"
 
 #include <algorithm>
-#include <boost/crc.hpp>
 #include <set>
 #include <utility>
 
+#include "core/bytes/crc_32.hpp"
 #include "core/mission/entry.hpp"
 #include "exec_svc/mission/action_entries.hpp"
 #include "exec_svc/reactor/relaunch.hpp"
@@ -27,12 +27,6 @@ std::string listed(const std::vector<std::string>& words) {
   std::string out;
   for (const std::string& word : words) out += (out.empty() ? "" : ", ") + word;
   return out.empty() ? "none" : out;
-}
-
-std::uint32_t crc32(const std::string& bytes) {
-  boost::crc_32_type crc;
-  crc.process_bytes(bytes.data(), bytes.size());
-  return crc.checksum();
 }
 
 constexpr std::string_view kContingencies = "contingencies.";
@@ -141,7 +135,7 @@ GroundOrders::Ruling GroundOrders::upload(const Order& order) {
   if (std::ranges::find(uploads, order.target) == uploads.end())
     return refused("'" + order.target +
                    "' cannot be replaced by an upload; the mission lets these: " + listed(uploads));
-  if (crc32(order.upload) != order.checksum)
+  if (bytes::crc_32(order.upload) != order.checksum)
     return refused("the checksum is that of another content; send it again");
   const std::string name = order.target.substr(kContingencies.size());
   if (plan_->contingency_under_way(name)) return refused(order.target + " is under way; send it later");

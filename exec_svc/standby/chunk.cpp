@@ -1,20 +1,19 @@
 #include "exec_svc/standby/chunk.hpp"
 
-#include <boost/crc.hpp>
+#include "core/bytes/crc_32.hpp"
+#include "core/bytes/little_endian.hpp"
 
 namespace roci::exec::standby {
 
 using journal::Position;
 
 std::uint32_t checksum(const Chunk& chunk) {
-  boost::crc_32_type crc;
+  std::string numbers;
   for (const std::uint64_t number :
        {chunk.leader, chunk.after.epoch, chunk.after.sequence, chunk.at.epoch, chunk.at.sequence,
-        std::uint64_t{chunk.part}, std::uint64_t{chunk.parts}}) {
-    for (int shift = 0; shift < 64; shift += 8) crc.process_byte(static_cast<unsigned char>(number >> shift));
-  }
-  crc.process_bytes(chunk.bytes.data(), chunk.bytes.size());
-  return crc.checksum();
+        std::uint64_t{chunk.part}, std::uint64_t{chunk.parts}})
+    bytes::append_little_endian(numbers, number, sizeof number);
+  return bytes::Crc32().add(numbers).add(chunk.bytes).value();
 }
 
 std::vector<Chunk> split(std::uint64_t leader, const Position& at, const std::string& whole) {

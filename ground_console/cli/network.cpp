@@ -5,7 +5,6 @@
 #include <unistd.h>
 
 #include <array>
-#include <boost/crc.hpp>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -13,6 +12,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "core/bytes/crc_32.hpp"
 #include "ground_console/cli/report.hpp"
 #include "ground_console/cli/verbs.hpp"
 
@@ -102,9 +102,7 @@ v1::NetworkOrder network_order_of(const NetworkArguments& arguments) {
   order.order_kind(v1::NETWORK_REPLACE);
   order.content().assign(content.begin(), content.end());
   order.content_size(content.size());
-  boost::crc_32_type crc;
-  crc.process_bytes(content.data(), content.size());
-  order.checksum(crc.checksum());
+  order.checksum(bytes::crc_32(content));
   return order;
 }
 

@@ -1,7 +1,6 @@
 #include "ground_console/cli/orders.hpp"
 
 #include <array>
-#include <boost/crc.hpp>
 #include <charconv>
 #include <fstream>
 #include <iostream>
@@ -9,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "core/bytes/crc_32.hpp"
 #include "ground_console/cli/executed_table.hpp"
 #include "ground_console/cli/report.hpp"
 #include "ground_console/cli/verbs.hpp"
@@ -54,9 +54,7 @@ void fill_upload(v1::Order& order, const std::string& file) {
   if (!in) throw std::invalid_argument("cannot read '" + file + "'; name a file with the new content");
   const std::string content{std::istreambuf_iterator<char>(in), {}};
   order.upload().assign(content.begin(), content.end());
-  boost::crc_32_type crc;
-  crc.process_bytes(content.data(), content.size());
-  order.checksum(crc.checksum());
+  order.checksum(bytes::crc_32(content));
 }
 
 // A command goes as an approval with its content.

@@ -3,6 +3,8 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "core/bytes/fnv_1a.hpp"
+#include "core/bytes/little_endian.hpp"
 #include "planner_svc/engine/step_fields.hpp"
 
 namespace roci::planner::engine {
@@ -13,22 +15,6 @@ constexpr char kInputs = 'I';
 constexpr char kOutcome = 'O';
 constexpr std::size_t kEntryHead = 5;
 constexpr std::size_t kChecksum = 8;
-
-void append_little_endian(std::string& out, std::uint64_t number, std::size_t bytes) {
-  for (std::size_t i = 0; i < bytes; ++i) out += static_cast<char>(number >> (8 * i));
-}
-
-std::uint64_t little_endian(std::string_view bytes) {
-  std::uint64_t out = 0;
-  for (std::size_t i = bytes.size(); i > 0; --i) out = out << 8 | static_cast<unsigned char>(bytes[i - 1]);
-  return out;
-}
-
-std::uint64_t fnv_1a(std::string_view bytes) {
-  std::uint64_t out = 14695981039346656037ULL;
-  for (const char byte : bytes) out = (out ^ static_cast<unsigned char>(byte)) * 1099511628211ULL;
-  return out;
-}
 
 template <class T>
 std::string bytes_of(const T& value) {
@@ -41,9 +27,9 @@ template <class T>
 std::string entry_of(char kind, const T& value) {
   const std::string body = bytes_of(value);
   std::string out(1, kind);
-  append_little_endian(out, body.size(), kEntryHead - 1);
+  bytes::append_little_endian(out, body.size(), kEntryHead - 1);
   out += body;
-  append_little_endian(out, fnv_1a(out), kChecksum);
+  bytes::append_little_endian(out, bytes::fnv_1a(out), kChecksum);
   return out;
 }
 
@@ -64,7 +50,7 @@ StepOutcome outcome_of(const StepOutput& output, std::string fault) {
   StepOutcome out{.account = account_text(output), .version = 0, .delta = 0, .fault = std::move(fault)};
   if (output.delta) {
     out.version = output.delta->added.version;
-    out.delta = fnv_1a(bytes_of(*output.delta));
+    out.delta = bytes::fnv_1a(bytes_of(*output.delta));
   }
   return out;
 }
@@ -112,11 +98,11 @@ std::optional<StepRecordReader::Entry> StepRecordReader::peek() {
   if (left.empty()) return std::nullopt;
   cut_short_ = left.size() < kEntryHead;
   if (cut_short_) return std::nullopt;
-  const std::size_t size = little_endian(left.substr(1, kEntryHead - 1));
+  const std::size_t size = bytes::little_endian(left.substr(1, kEntryHead - 1));
   cut_short_ = left.size() - kEntryHead < size + kChecksum;
   if (cut_short_) return std::nullopt;
   const std::string_view whole = left.substr(0, kEntryHead + size);
-  if (little_endian(left.substr(whole.size(), kChecksum)) != fnv_1a(whole))
+  if (bytes::little_endian(left.substr(whole.size(), kChecksum)) != bytes::fnv_1a(whole))
     fail("the checksum of an entry is another: some of its bytes were changed");
   return Entry{left.front(), whole.substr(kEntryHead), whole.size() + kChecksum};
 }

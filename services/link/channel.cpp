@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "core/bytes/fnv_1a.hpp"
 #include "core/pseudorandom/split_mix.hpp"
 
 namespace roci::services::link {
@@ -13,22 +14,16 @@ using temporal::Time;
 
 namespace {
 
-// FNV-1a, the same on every machine, with a length before each text so that no two tuples run together.
+// Hashes tuples, with a length before each text so that no two tuples run together.
 class Hash {
  public:
-  void add(std::uint64_t number) {
-    for (int byte = 0; byte < 8; ++byte) add_byte(static_cast<unsigned char>(number >> (8 * byte)));
-  }
-  void add(std::string_view text) {
-    add(text.size());
-    for (const char c : text) add_byte(static_cast<unsigned char>(c));
-  }
+  void add(std::uint64_t number) { hash_.add_number(number); }
+  void add(std::string_view text) { hash_.add_number(text.size()).add(text); }
   // FNV's high bits alone are not uniform.
-  std::uint64_t mixed() const { return pseudorandom::SplitMix64(value_).next(); }
+  std::uint64_t mixed() const { return pseudorandom::SplitMix64(hash_.value()).next(); }
 
  private:
-  void add_byte(unsigned char byte) { value_ = (value_ ^ byte) * 1099511628211ULL; }
-  std::uint64_t value_ = 14695981039346656037ULL;
+  bytes::Fnv1a hash_;
 };
 
 }  // namespace

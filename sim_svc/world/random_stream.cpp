@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/bytes/fnv_1a.hpp"
 #include "core/pseudorandom/split_mix.hpp"
 
 namespace roci::sim::world {
@@ -12,9 +13,7 @@ namespace {
 // Mixes by FNV-1a over the name, started from the seed, and then by the finalizer of SplitMix64, so that near
 // seeds lie apart.
 std::uint64_t mixed(std::uint64_t seed, std::string_view name) {
-  std::uint64_t hash = 14695981039346656037ull ^ seed;
-  for (const char c : name) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ull;
-  return pseudorandom::finalized(hash);
+  return pseudorandom::finalized(bytes::Fnv1a(seed).add(name).value());
 }
 
 }  // namespace

@@ -17,8 +17,8 @@ struct House {
 
 const std::vector<House> kHouses = {
     {"core/",
-     {"core/durable/", "core/temporal/", "core/words/", "core/pseudorandom/", "core/mission/", "core/pddl/",
-      "core/kinematics/", "core/terrain/"}},
+     {"core/bytes/", "core/durable/", "core/temporal/", "core/words/", "core/pseudorandom/", "core/mission/",
+      "core/pddl/", "core/kinematics/", "core/terrain/"}},
     {"services/",
      {"services/bounds/", "services/clock/", "services/link/", "services/log/", "services/wire/",
       "services/transport/", "services/certificate/", "services/vendors/", "services/topics/",

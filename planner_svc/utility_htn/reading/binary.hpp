@@ -8,7 +8,7 @@
 //   4      CRC-32 (IEEE 802.3) of all before, little-endian
 #pragma once
 
-#include <cstdint>
+#include <cstddef>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -19,6 +19,7 @@ namespace roci::planner::utility_htn::reading {
 
 inline constexpr unsigned kBinaryFormat = 1;
 inline constexpr std::string_view kBinaryMagic = "ROCIHTN";
+inline constexpr std::size_t kChecksumBytes = 4;
 
 /// Says in what(): "at byte 17: what is wrong; remedy".
 class BinaryError : public std::runtime_error {
@@ -35,8 +36,5 @@ std::string to_binary(const model::Network& network);
 /// Reads a network whole or throws BinaryError. It is well formed and within model/bounds.hpp by its counts;
 /// model::check() says whether it can be used. Memory is taken for what is there, never for what a count promises.
 model::Network parse_binary(std::string_view bytes);
-
-/// Returns the CRC-32 of IEEE 802.3, as zlib computes it.
-std::uint32_t crc32(std::string_view bytes);
 
 }  // namespace roci::planner::utility_htn::reading

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "core/bytes/crc_32.hpp"
+#include "core/bytes/little_endian.hpp"
 #include "planner_svc/utility_htn/reading/binary.hpp"
 #include "planner_svc/utility_htn/reading/binary_fields.hpp"
 
@@ -79,9 +81,8 @@ class ByteReader {
       out = static_cast<double>(unzigzag(head - 3));
     } else {
       if (left() < 8) fail("the bytes end in a number");
-      std::uint64_t bits = 0;
-      for (unsigned byte = 0; byte < 8; ++byte)
-        bits |= static_cast<std::uint64_t>(static_cast<unsigned char>(bytes_[at_++])) << (8 * byte);
+      const std::uint64_t bits = bytes::little_endian(bytes_.substr(at_, 8));
+      at_ += 8;
       std::memcpy(&out, &bits, sizeof out);
       if (std::isnan(out)) fail("what should be a number is none");
     }
@@ -166,7 +167,7 @@ class ByteReader {
 bool is_binary(std::string_view bytes) { return bytes.starts_with(kBinaryMagic); }
 
 model::Network parse_binary(std::string_view bytes) {
-  constexpr std::size_t kHead = kBinaryMagic.size() + 1, kCrc = 4;
+  constexpr std::size_t kHead = kBinaryMagic.size() + 1;
   if (!is_binary(bytes))
     fail_at(0, "no network in binary form: it does not begin with '" + std::string(kBinaryMagic) +
                    "'; pack one with 'roci-network pack'");
@@ -182,13 +183,11 @@ model::Network parse_binary(std::string_view bytes) {
   ByteReader head(bytes.substr(kHead), kHead);
   const std::uint64_t length = head.varint();
   const std::size_t body = head.offset();
-  if (bytes.size() - body < kCrc || length != bytes.size() - body - kCrc)
+  if (bytes.size() - body < kChecksumBytes || length != bytes.size() - body - kChecksumBytes)
     fail_at(kHead, "the head speaks of " + std::to_string(length) + " bytes, and " +
                        std::to_string(bytes.size() - body) + " follow with the checksum" + kAgain);
-  std::uint32_t crc = 0;
-  for (unsigned byte = 0; byte < kCrc; ++byte)
-    crc |= static_cast<std::uint32_t>(static_cast<unsigned char>(bytes[body + length + byte])) << (8 * byte);
-  if (crc != crc32(bytes.substr(0, body + length)))
+  const std::uint64_t stated = bytes::little_endian(bytes.substr(body + length));
+  if (stated != bytes::crc_32(bytes.substr(0, body + length)))
     fail_at(body + length, "the checksum is another: some of the bytes were changed" + kAgain);
   ByteReader reader(bytes.substr(body, length), body);
   reader.read_texts();

@@ -1,4 +1,3 @@
-#include <array>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -6,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "core/bytes/crc_32.hpp"
+#include "core/bytes/little_endian.hpp"
 #include "planner_svc/utility_htn/reading/binary.hpp"
 #include "planner_svc/utility_htn/reading/binary_fields.hpp"
 
@@ -45,7 +46,7 @@ class ByteWriter {
     number(0);
     std::uint64_t bits = 0;
     std::memcpy(&bits, &value, sizeof bits);
-    for (unsigned byte = 0; byte < 8; ++byte) out_ += static_cast<char>(bits >> (8 * byte));
+    bytes::append_little_endian(out_, bits, sizeof bits);
   }
 
   void time(temporal::Duration value) { number(value == temporal::no_bound ? 0 : zigzag(value.count()) + 1); }
@@ -96,24 +97,7 @@ class ByteWriter {
   std::vector<const std::string*> texts_;
 };
 
-constexpr std::array<std::uint32_t, 256> crc_table() {
-  std::array<std::uint32_t, 256> out{};
-  for (std::uint32_t byte = 0; byte < 256; ++byte) {
-    std::uint32_t crc = byte;
-    for (int bit = 0; bit < 8; ++bit) crc = (crc & 1U) != 0 ? 0xedb88320U ^ (crc >> 1U) : crc >> 1U;
-    out[byte] = crc;
-  }
-  return out;
-}
-
 }  // namespace
-
-std::uint32_t crc32(std::string_view bytes) {
-  static constexpr auto table = crc_table();
-  std::uint32_t crc = ~std::uint32_t{0};
-  for (const char c : bytes) crc = table[(crc ^ static_cast<unsigned char>(c)) & 0xffU] ^ (crc >> 8U);
-  return ~crc;
-}
 
 std::string to_binary(const model::Network& network) {
   ByteWriter writer;
@@ -123,8 +107,7 @@ std::string to_binary(const model::Network& network) {
   out += static_cast<char>(kBinaryFormat);
   append_varint(out, body.size());
   out += body;
-  const std::uint32_t crc = crc32(out);
-  for (unsigned byte = 0; byte < 4; ++byte) out += static_cast<char>(crc >> (8 * byte));
+  bytes::append_little_endian(out, bytes::crc_32(out), kChecksumBytes);
   return out;
 }
 

@@ -7,6 +7,8 @@
 #include <random>
 #include <string>
 
+#include "core/bytes/crc_32.hpp"
+#include "core/bytes/little_endian.hpp"
 #include "planner_svc/utility_htn/flattening/chain.hpp"
 #include "planner_svc/utility_htn/reading/binary.hpp"
 #include "planner_svc/utility_htn/reading/load.hpp"
@@ -74,8 +76,7 @@ TEST_F(FuzzNetworks, DamagedBytesAreTakenOrRefusedWithTheirOffset) {
   const std::string whole = reading::to_binary(reading::load_network(folder_ / "network-bsm1.yaml"));
   for (int round = 0; round < rounds(1500); ++round) {
     std::string bytes = damaged(whole.substr(0, whole.size() - 4), random_);
-    const std::uint32_t crc = reading::crc32(bytes);
-    for (unsigned byte = 0; byte < 4; ++byte) bytes += static_cast<char>(crc >> (8 * byte));
+    bytes::append_little_endian(bytes, bytes::crc_32(bytes), reading::kChecksumBytes);
     mission::Findings findings;
     ASSERT_NO_FATAL_FAILURE(use(reading::take_network(bytes, "up.bin", findings), findings))
         << "round " << round;

@@ -10,6 +10,8 @@
 #include <sstream>
 #include <string>
 
+#include "core/bytes/fnv_1a.hpp"
+#include "core/bytes/little_endian.hpp"
 #include "planner_svc/utility_htn/adapter/utility_engine.hpp"
 #include "planner_svc/utility_htn/cli/cycle.hpp"
 #include "planner_svc/utility_htn/reading/load.hpp"
@@ -63,14 +65,9 @@ TEST(FuzzStepRecords, ADamagedRecordIsPlannedAgainOrRefusedWithItsPlace) {
 // An entry of inputs as a planner writes it (step_record.hpp).
 std::string entry_of(const std::string& body) {
   std::string out = "I";
-  const auto append = [&out](std::uint64_t number, int bytes) {
-    for (int i = 0; i < bytes; ++i) out += static_cast<char>(number >> (8 * i));
-  };
-  append(body.size(), 4);
+  bytes::append_little_endian(out, body.size(), 4);
   out += body;
-  std::uint64_t checksum = 14695981039346656037ULL;
-  for (const char byte : out) checksum = (checksum ^ static_cast<unsigned char>(byte)) * 1099511628211ULL;
-  append(checksum, 8);
+  bytes::append_little_endian(out, bytes::fnv_1a(out), 8);
   return out;
 }
 

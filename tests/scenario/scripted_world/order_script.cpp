@@ -1,7 +1,7 @@
 // A ground that gives every kind of order to a plan of seven images, some twice, some that must be refused.
-#include <boost/crc.hpp>
 #include <map>
 
+#include "core/bytes/crc_32.hpp"
 #include "tests/scenario/scripted_world/script.hpp"
 
 namespace roci::scenario {
@@ -101,9 +101,7 @@ class OrderScript final : public Script {
     const std::string text = "commands: [{owner: sim_svc, component: camera, command: stop}]\n";
     v1::Order out = order(id, v1::ORDER_UPLOAD, "contingencies.wipe");
     out.upload().assign(text.begin(), text.end());
-    boost::crc_32_type crc;
-    crc.process_bytes(text.data(), text.size());
-    out.checksum(crc.checksum() + wrong_by);
+    out.checksum(bytes::crc_32(text) + wrong_by);
     at(when, out);
   }
 

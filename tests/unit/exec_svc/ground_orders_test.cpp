@@ -1,7 +1,7 @@
 // Orders of the ground: what each does, when it is refused and in which words, that it is given once, and
 // what a snapshot keeps of it.
-#include <boost/crc.hpp>
 
+#include "core/bytes/crc_32.hpp"
 #include "tests/unit/exec_svc/reactor_fixture.hpp"
 
 namespace roci::exec::testing {
@@ -48,9 +48,7 @@ class OrderTest : public ReactorTest {
   static Order uploaded(const std::string& target, const std::string& text) {
     Order out = order(OrderKind::upload, target);
     out.upload = text;
-    boost::crc_32_type crc;
-    crc.process_bytes(text.data(), text.size());
-    out.checksum = crc.checksum();
+    out.checksum = bytes::crc_32(text);
     return out;
   }
   Order numbered(Order one) {
