@@ -72,6 +72,19 @@ TEST(ArchitectureTest, EachRuleCanBeBroken) {
   EXPECT_THAT(broken(source), ElementsAre(HasSubstr("601 lines")));
 }
 
+TEST(ArchitectureTest, OfTheExecutiveOnlyMissionsAndProblemsKnowPddl) {
+  const SourceFile tree = file("core/pddl/ast.hpp", "vector");
+  const SourceFile writer = file("exec_svc/problem/pddl_problem.hpp", "core/pddl/ast.hpp");
+  EXPECT_THAT(broken_rules({tree, writer, file("exec_svc/mission/a.cpp", "core/pddl/ast.hpp")}), IsEmpty());
+  EXPECT_THAT(broken_rules({tree, file("exec_svc/reactor/a.cpp", "core/pddl/ast.hpp")}),
+              ElementsAre(HasSubstr("exec_svc/reactor/a.cpp: reaches core/pddl/ast.hpp")));
+  EXPECT_THAT(
+      broken_rules({tree, writer, file("exec_svc/journal/a.cpp", "exec_svc/problem/pddl_problem.hpp")}),
+      ElementsAre(HasSubstr("exec_svc/problem/pddl_problem.hpp -> core/pddl/ast.hpp")));
+  EXPECT_THAT(broken_rules({tree, file("exec_svc/a_service.cpp", "core/pddl/ast.hpp")}),
+              ElementsAre(HasSubstr("exec_svc/a_service.cpp: reaches")));
+}
+
 TEST(ArchitectureTest, ACommentDoesNotTearItsDeclaration) {
   SourceFile source = file("core/temporal/a.hpp", "vector");
   source.lines = {"  std::vector<int> values;  ///< Of the longest name."};

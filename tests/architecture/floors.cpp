@@ -118,4 +118,22 @@ std::vector<std::string> upward_includes(const std::vector<SourceFile>& files) {
   return out;
 }
 
+std::vector<std::string> pddl_outside_its_door(const std::vector<SourceFile>& files) {
+  static const std::vector<std::string> door = {"exec_svc/mission", "exec_svc/problem"};
+  Includes includes;
+  for (const SourceFile& file : files) includes[file.path] = &file.includes;
+  std::vector<std::string> out;
+  for (const SourceFile& file : files) {
+    const auto holds = [&](const std::string& folder) { return file.under(folder); };
+    if (!file.under("exec_svc") || std::ranges::any_of(door, holds)) continue;
+    const auto from = reach(file.path, includes);
+    const auto pddl = std::ranges::find_if(
+        from, [](const auto& reached) { return reached.first.starts_with("core/pddl/"); });
+    if (pddl != from.end())
+      out.push_back(file.path + ": reaches " + pddl->first +
+                    ", which of exec_svc mission/ and problem/ do alone: " + chain_to(pddl->first, from));
+  }
+  return out;
+}
+
 }  // namespace roci::architecture

@@ -236,6 +236,7 @@ std::vector<std::string> broken_rules(const std::vector<SourceFile>& files) {
   std::ranges::copy(undocumented(files), std::back_inserter(out));
   std::ranges::copy(foreign_namespaces(files), std::back_inserter(out));
   std::ranges::copy(upward_includes(files), std::back_inserter(out));
+  std::ranges::copy(pddl_outside_its_door(files), std::back_inserter(out));
   const Complaints planner = broken_planner_rules(files);
   out.insert(out.end(), planner.begin(), planner.end());
   std::ranges::copy(broken_seam_rules(files), std::back_inserter(out));
