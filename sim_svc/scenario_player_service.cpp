@@ -18,9 +18,9 @@ using scenario::Scenario;
 using scenario::Stimulus;
 using world::Match;
 
-namespace topics = services::topics;
-
 namespace {
+
+namespace topics = services::topics;
 
 constexpr char kGround[] = "ground";  // who tells of hazards that the scenario states
 
