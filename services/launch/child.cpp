@@ -18,7 +18,9 @@ namespace {
 constexpr int kCannotRun = 127;
 
 // Runs between fork and exec, and so makes async-signal-safe calls only. A process group of its own keeps the
-// terminal's Ctrl-C away; the launcher passes it on in the right order.
+// terminal's Ctrl-C away; the launcher passes it on in the right order. Nothing but the three standard descriptors is
+// meant for the child: the vendors do not open their sockets close-on-exec, and who inherits them holds the launcher's
+// ports.
 [[noreturn]] void become(const char* program, char* const* arguments, char* const* environment, int log,
                          pid_t parent) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
@@ -29,6 +31,7 @@ constexpr int kCannotRun = 127;
   sigprocmask(SIG_SETMASK, &none, nullptr);
   dup2(log, STDOUT_FILENO);
   dup2(log, STDERR_FILENO);
+  close_range(STDERR_FILENO + 1, ~0U, CLOSE_RANGE_CLOEXEC);
   execve(program, arguments, environment);
   _exit(kCannotRun);
 }
