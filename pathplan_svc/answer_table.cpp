@@ -9,13 +9,16 @@ auto key_of(terrain::Point from, terrain::Point to) {
 
 }  // namespace
 
-const KeptAnswer* AnswerTable::find(terrain::Point from, terrain::Point to) const {
+const KeptAnswer* AnswerTable::find(terrain::Point from, terrain::Point to) {
   const auto found = answers_.find(key_of(from, to));
-  return found == answers_.end() ? nullptr : &found->second;
+  if (found == answers_.end()) return nullptr;
+  found->second.round = round_;
+  return &found->second;
 }
 
 const KeptAnswer& AnswerTable::put(terrain::Point from, terrain::Point to, KeptAnswer answer) {
   if (answers_.size() >= kMost) answers_.clear();
+  answer.round = round_;
   return answers_.insert_or_assign(key_of(from, to), std::move(answer)).first->second;
 }
 
@@ -24,6 +27,11 @@ void AnswerTable::keep_unread(const ReadSet& changed) {
     const KeptAnswer& answer = entry.second;
     return answer.outcome.status != PathStatus::found || answer.reads.meets(changed);
   });
+}
+
+void AnswerTable::forget_unasked() {
+  std::erase_if(answers_, [this](const auto& entry) { return entry.second.round < round_; });
+  ++round_;
 }
 
 }  // namespace roci::pathplan

@@ -2,8 +2,11 @@
 // "What is bounded").
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
+
+#include "core/temporal/duration.hpp"
 
 namespace roci::pathplan {
 
@@ -18,6 +21,9 @@ inline constexpr std::size_t kMerges = 64;
 inline constexpr std::size_t kMapChanges = 256;
 /// Unusable places that are told of once for each map; of those beyond nothing is told.
 inline constexpr std::size_t kReportedPlaces = 1'000;
+/// Mission time after which answers and search trees that nobody has asked for since may be let go, and after twice of
+/// which they are, at the next question: the goals of another day lie elsewhere.
+inline constexpr temporal::Duration kUnaskedFor = std::chrono::hours(6);
 /// Bytes of a hazard's finder and id.
 inline constexpr std::size_t kNameBytes = 1'024;
 

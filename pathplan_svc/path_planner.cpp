@@ -110,6 +110,12 @@ bool PathPlanner::set_discs(const std::vector<Disc>& discs) {
   return true;
 }
 
+void PathPlanner::forget_unasked() {
+  answers_.forget_unasked();
+  std::erase_if(trees_, [this](const auto& entry) { return entry.second.round < round_; });
+  ++round_;
+}
+
 PathOutcome PathPlanner::path(terrain::Point from, terrain::Point to) {
   const KeptAnswer& known = answer(from, to);
   PathOutcome outcome = known.outcome;
@@ -179,10 +185,13 @@ bool PathPlanner::may_be_reached(terrain::Cell from, terrain::Cell to) const {
 const SearchTree& PathPlanner::tree_between(terrain::Cell source, terrain::Cell target) {
   const std::size_t index = map_.grid().index(source);
   const auto known = trees_.find(index);
-  if (known != trees_.end() && known->second.holds(map_, target)) return known->second;
+  if (known != trees_.end() && known->second.tree.holds(map_, target)) {
+    known->second.round = round_;
+    return known->second.tree;
+  }
   if (trees_.size() * map_.grid().cell_count() >= kTreeBytes) trees_.clear();
   ++work_.searches;
-  return trees_.insert_or_assign(index, search_.from(map_, source)).first->second;
+  return trees_.insert_or_assign(index, KeptTree{search_.from(map_, source), round_}).first->second.tree;
 }
 
 KeptAnswer PathPlanner::plan(terrain::Point from, terrain::Point to) {

@@ -30,6 +30,12 @@ struct PlannerWork {
   std::uint64_t paths = 0;     ///< that were worked out
 };
 
+/// Says how much a planner keeps for who asks again.
+struct KeptWork {
+  std::size_t answers = 0;
+  std::size_t trees = 0;  ///< of one search each, a byte for each cell of the map
+};
+
 /// Finds fast drives over a map that may gain obstacles. An answer depends on the map and the two ends alone,
 /// never on earlier questions. Answers and search trees are kept; when obstacles are added, those stay that would come
 /// out the same again, and when one goes, none. One thread may use it at a time.
@@ -45,9 +51,14 @@ class PathPlanner {
   const Costmap& map() const { return map_; }
   const DriveModel& drive() const { return drive_; }
   const PlannerWork& work() const { return work_; }
+  KeptWork kept() const { return {answers_.size(), trees_.size()}; }
 
   /// Does what Costmap::set_discs does.
   bool set_discs(const std::vector<Disc>& discs);
+
+  /// Lets go of the answers and search trees that nobody has asked for since the last call. Who asks for one later gets
+  /// the same answer, worked out anew.
+  void forget_unasked();
 
   PathOutcome path(terrain::Point from, terrain::Point to);
   /// Returns the same without way-points, which is what a table of costs needs.
@@ -57,6 +68,10 @@ class PathPlanner {
   PathOutcome lower_bound(terrain::Point from, terrain::Point to);
 
  private:
+  struct KeptTree {
+    SearchTree tree;
+    std::uint64_t round;  // in which it was asked for last
+  };
   // The ends of a path on the grid; without `start` there is none, and the outcome says why.
   struct Ends {
     PathOutcome outcome;
@@ -79,9 +94,10 @@ class PathPlanner {
   PlannerSettings settings_;
   GridSearch search_;
   Regions regions_;
-  std::optional<Regions> hoped_for_;  // where the map knows all ground, there is no need of it
-  double least_energy_ = 0;           // J/m, on the ground of the map
-  std::map<std::size_t, SearchTree> trees_;
+  std::optional<Regions> hoped_for_;       // where the map knows all ground, there is no need of it
+  double least_energy_ = 0;                // J/m, on the ground of the map
+  std::map<std::size_t, KeptTree> trees_;  // by their sources
+  std::uint64_t round_ = 0;                // rises with each forget_unasked()
   AnswerTable answers_;
   PlannerWork work_;
 };

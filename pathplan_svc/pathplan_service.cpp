@@ -54,12 +54,23 @@ class PathplanService : public services::Service {
       if (request.module_name() == kModule) on_function_call(request, responder);
     });
     services::serve(node, topics::path_request, [this](const v1::PathRequest& request, auto responder) {
-      worker_.compute([this, request](const std::stop_token&) { return find_path(planner_, request); },
-                      [responder](v1::PathReply reply) { responder.reply(std::move(reply)); });
+      worker_.compute(
+          [this, request, forget = is_time_to_forget()](const std::stop_token&) {
+            if (forget) planner_.forget_unasked();
+            return find_path(planner_, request);
+          },
+          [responder](v1::PathReply reply) { responder.reply(std::move(reply)); });
     });
   }
 
  private:
+  // Returns true once in each kUnaskedFor, with a question: without questions nothing is added.
+  bool is_time_to_forget() {
+    if (node_.now() < forgot_at_ + kUnaskedFor) return false;
+    forgot_at_ = node_.now();
+    return true;
+  }
+
   // Who is told a map and its version may have heard of an earlier life.
   static PlannerSettings settings_of(const MapSettings& map, std::uint32_t incarnation) {
     PlannerSettings out;
@@ -79,7 +90,10 @@ class PathplanService : public services::Service {
   void on_function_call(const v1::FunctionRequest& request,
                         services::Responder<v1::FunctionReply> responder) {
     worker_.compute(
-        [this, request](const std::stop_token& stop) { return evaluate(planner_, request, stop); },
+        [this, request, forget = is_time_to_forget()](const std::stop_token& stop) {
+          if (forget) planner_.forget_unasked();
+          return evaluate(planner_, request, stop);
+        },
         [this, responder](FunctionAnswer answer) {
           report_unusable(answer.unusable_places);
           answer.reply.owner(node_.options().name);
@@ -204,6 +218,7 @@ class PathplanService : public services::Service {
   std::map<std::pair<std::string, std::string>, Disc> hazards_;  // by finder and id
   std::set<std::string> reported_;
   services::bounds::Tally refusals_;
+  temporal::Time forgot_at_{};   // mission time
   std::size_t map_changes_ = 0;  // that the worker has not made yet
   PathPlanner planner_;          // from the constructor's end on: the worker's alone
   services::Publisher<v1::FunctionOffer> offers_;

@@ -144,6 +144,30 @@ TEST(Table, AnObstacleFarAwayCostsNothing) {
   EXPECT_EQ(planner.work().paths, 4U) << "what goes may open a better way for anybody";
 }
 
+// The places of a long mission drift over the map; what was asked for lately stays, the rest goes.
+TEST(Table, WhatNobodyAsksForAnyMoreIsForgotten) {
+  const terrain::Site site = made_site(60, 1.0, level, no_rocks);
+  PathPlanner planner(site, {}, {});
+  const Point home{30, 30};
+  const Point depot{40, 35};
+  std::mt19937_64 random(7);
+  std::uint64_t paths = 0;
+  for (int day = 0; day < 60; ++day) {
+    const Point place{uniform(random, 3, 57), uniform(random, 3, 57)};
+    expect_same(planner.path(place, depot), PathPlanner(site, {}, {}).path(place, depot));
+    planner.cost(home, depot);
+    paths += day == 0 ? 2 : 1;
+    ASSERT_EQ(planner.work().paths, paths) << "the way that is asked for each day is worked out once";
+    planner.forget_unasked();
+    ASSERT_LE(planner.kept().answers, 2U);
+    ASSERT_LE(planner.kept().trees, 2U);
+  }
+  planner.forget_unasked();
+  EXPECT_EQ(planner.kept().answers + planner.kept().trees, 0U);
+  expect_same(planner.path(home, depot), PathPlanner(site, {}, {}).path(home, depot));
+  EXPECT_EQ(planner.work().paths, paths + 1);
+}
+
 // A tree stays in use after obstacles were added, and its ways are those of a new search.
 TEST(Table, AWayThatHoldsIsTheWayOfANewSearch) {
   int held = 0;
