@@ -53,8 +53,15 @@ OutputPublisher::OutputPublisher(services::Node& node, const MissionModel& missi
       events_(services::advertise(node, topics::event)) {}
 
 void OutputPublisher::send_goals(const Reactor& reactor) const {
-  for (const GoalRecord* goal : reactor.goals().all())
-    goal_statuses_.write(to_wire(*goal, executive_, ack_stage_));
+  for (const GoalRecord* goal : reactor.goals().all()) tell(*goal);
+}
+
+// A late joiner gets all goals that are open, and of those that have ended the newest ones.
+bool OutputPublisher::tell(const GoalRecord& goal) const {
+  const v1::GoalStatus status = to_wire(goal, executive_, ack_stage_);
+  const bool written = goal_statuses_.write(status);
+  if (goals::is_final(goal.state)) goal_statuses_.dispose(status);
+  return written;
 }
 
 void OutputPublisher::send_plan(const Reactor& reactor) {
@@ -68,8 +75,7 @@ void OutputPublisher::send_plan(const Reactor& reactor) {
 
 void OutputPublisher::send(const ReactorOutputs& out, std::uint32_t version,
                            const std::vector<PlannedAction>& actions) {
-  for (const GoalRecord& goal : out.goal_changes)
-    sent(goal_statuses_.write(to_wire(goal, executive_, ack_stage_)));
+  for (const GoalRecord& goal : out.goal_changes) sent(tell(goal));
   if (out.adopted) sent(plans_.write(plan_sample(*out.adopted, actions)));
   for (const Command& command : out.commands) {
     v1::Command sample = to_wire(command, executive_, version, epoch_);

@@ -68,6 +68,7 @@ class OutputPublisher {
  private:
   void sent(bool) const { crash_->pass("during-send"); }
 
+  bool tell(const goals::GoalRecord&) const;
   void send(v1::Command);
   void lead(const std::string& owner, std::uint64_t epoch) const;
   v1::Plan plan_sample(const temporal::FlexiblePlan&, const std::vector<reactor::PlannedAction>&) const;

@@ -29,6 +29,10 @@ constexpr char kSchema[] =
 // Bounds the wait for another program that reads or copies the journal at this moment.
 constexpr int kBusyTimeoutMs = 1000;
 
+// Bounds the pages that SQLite keeps in memory, in KiB: its own bound is 2,000, up to which a process grows with its
+// journal. A step appends at the end, a few pages.
+constexpr char kCacheSize[] = "PRAGMA cache_size=-256;";
+
 // Returns whether the disk, and not what stands on it, is the cause.
 bool is_of_the_disk(sqlite3* database) {
   switch (sqlite3_extended_errcode(database)) {
@@ -112,6 +116,7 @@ Journal::Database::Database(const std::filesystem::path& file, Durability durabi
   sqlite3_busy_timeout(handle, kBusyTimeoutMs);
   try {
     execute("PRAGMA journal_mode=WAL;");
+    execute(kCacheSize);
     execute(durability == Durability::power ? "PRAGMA synchronous=FULL;" : "PRAGMA synchronous=OFF;");
     settle_format(handle);
     execute(kSchema);

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sqlite3.h>
 
 #include <cmath>
 #include <filesystem>
@@ -100,6 +101,17 @@ TEST_F(JournalTest, RecordsKeepTheirOrder) {
     seen.push_back(std::to_string(time.count()) + " " + std::string(kind) + " " + std::string(text));
   });
   EXPECT_THAT(seen, ::testing::ElementsAre("2000000 command b", "1000000 ack a"));
+}
+
+// A process does not grow with its journal.
+TEST_F(JournalTest, KeepsFewOfItsPagesInMemory) {
+  Journal journal(file, Durability::process);
+  const auto before = sqlite3_memory_used();
+  for (int number = 0; number < 8000; ++number) {
+    journal.append(seconds(number), "trace", std::string(1000, 'x'));
+    if (number % 10 == 0) journal.commit();
+  }
+  EXPECT_LT(sqlite3_memory_used() - before, 600'000) << "of 8 MB";
 }
 
 TEST_F(JournalTest, AForeignFileIsRefusedByName) {

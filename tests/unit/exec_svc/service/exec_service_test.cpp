@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "exec_svc/limits.hpp"
 #include "tests/unit/exec_svc/planetary_fixture.hpp"
@@ -342,6 +343,32 @@ TEST(ExecService, ARestartTellsTheStateOfEveryGoalAgain) {
               ElementsAre("done achieved observed", StartsWith("bad rejected unknown goal kind")));
   EXPECT_EQ(seat.planner_calls, 1);
   EXPECT_EQ(seat.mission.outcome(), "partial");
+}
+
+// An executive of months keeps the last words on its newest goals for late joiners, and on all that are open.
+TEST(ExecService, ALateJoinerHearsOfTheGoalsThatAreOpenOrEndedLast) {
+  constexpr std::size_t kEnded = 200, kTold = 64;
+  std::vector<GoalRecord> journalled;
+  for (std::size_t number = 1; number <= kEnded; ++number) {
+    GoalRecord record;
+    record.request = photo("g" + std::to_string(number));
+    record.state = GoalState::achieved;
+    record.arrival = number;
+    journalled.push_back(record);
+  }
+  ExecSeat seat("inproc", "inproc", services::next_domain(), journalled);
+  std::set<std::string> heard;
+  seat.send(10s, photo_goal("open"));
+  seat.kill_planner_at(20s, [&](services::Node& node) {
+    services::subscribe(node, services::topics::goal_status,
+                        [&](const v1::GoalStatus& status) { heard.insert(status.id()); });
+  });
+  seat.run_until(30s);
+  EXPECT_EQ(seat.mission.goals_achieved(), kEnded);
+  EXPECT_EQ(heard.size(), kTold + 1);
+  EXPECT_THAT(heard, Contains("open"));
+  EXPECT_THAT(heard, Contains("g" + std::to_string(kEnded)));
+  EXPECT_THAT(heard, ::testing::Not(Contains("g1")));
 }
 
 }  // namespace
