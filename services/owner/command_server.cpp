@@ -21,8 +21,8 @@ CommanderLeases::Moment moment() {
   return std::chrono::duration_cast<CommanderLeases::Moment>(clock::wall_now().time_since_epoch());
 }
 
-// So many entries are appended to the file before it begins anew: some times those of the commands that are kept.
-constexpr std::size_t kAppended = 10 * Retention::kKept;
+// So many entries are appended to the file before it begins anew: many times those of the commands that are kept.
+constexpr std::size_t kAppended = 10'000;
 
 bool is_last_word(v1::CommandStage stage) {
   return stage != v1::STAGE_ACCEPTED && stage != v1::STAGE_CANCEL_FAILED;

@@ -29,7 +29,7 @@ class Retention {
  public:
   /// So many ended commands keep their last status. Whoever asks for one asks for what it commanded last: after a lost
   /// answer or a restart, a handful.
-  static constexpr std::size_t kKept = 1000;
+  static constexpr std::size_t kKept = 200;
   /// A stop each ten seconds for a day. One that comes again after so many others stops what is stopped.
   static constexpr std::size_t kWithoutPlan = 10'000;
 

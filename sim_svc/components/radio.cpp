@@ -47,6 +47,7 @@ Ending Radio::finish(Surroundings& around) {
   image.sent = true;
   around.effects.push_back({"send", done.image});
   around.out.push_back(image);
+  image.preview = {};  // nobody looks at it on board any more
   return std::nullopt;
 }
 

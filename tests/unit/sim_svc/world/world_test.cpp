@@ -351,6 +351,9 @@ TEST(World, AnImageIsStoredThenSentInTheWindow) {
     }
   }
   EXPECT_EQ(sent, (std::vector<bool>{false, true}));
+  const Image kept = run.world.memory().robots.at("rover").images.at("one");
+  EXPECT_TRUE(kept.sent);
+  EXPECT_TRUE(kept.preview.empty()) << "it is on the other side, and a month has a hundred";
 }
 
 TEST(World, AWindowThatClosesCutsTheSendOff) {
