@@ -2,14 +2,16 @@
 //                [--samples FILE]
 // It measures round trips between two processes on loopback: each vendor's bare API against our transport
 // over the same vendor, in one run and in turns, so that both see the same machine. It tells on standard error
-// how far it is, and writes one JSON record to standard output. Every single time is appended to FILE, so that a large
-// number of them can be measured in slices, which merge.py puts together.
+// how far it is, and writes one JSON record to standard output. Every single time is appended to FILE, with what the
+// server has waited for meanwhile (waits.hpp), so that a large number of them can be measured in slices, which merge.py
+// puts together.
 #include <sched.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <condition_variable>
 #include <deque>
 #include <fstream>
@@ -20,8 +22,10 @@
 #include <random>
 #include <stdexcept>
 #include <thread>
+#include <utility>
 
 #include "bench/dds/port.hpp"
+#include "bench/dds/waits.hpp"
 #include "services/process/domain_claim.hpp"
 #include "tests/contract/support/child_process.hpp"
 
@@ -106,6 +110,7 @@ void pin_to(unsigned processor) {
 // Returns each ball until its standard input ends.
 int serve(const std::string& variant, int domain) {
   pin_to(1);
+  publish_disk_waits();
   Mailbox mailbox;
   const auto port =
       open(variant, {Side::server, domain, [&mailbox](const Ball& ball) { mailbox.put(ball); }});
@@ -139,7 +144,11 @@ class Rally {
     warm_up();
   }
 
+  ~Rally() { forget_disk_waits(server_.pid()); }
+
   void play(int pings, std::mt19937_64& random) {
+    server_waited_.begin(server_.pid());
+    client_waited_.begin(getpid());
     std::uniform_real_distribution<double> metres(-100, 100);
     for (int i = 0; i < pings; ++i) {
       const Ball ball{++sequence_, metres(random), metres(random)};
@@ -147,6 +156,8 @@ class Rally {
       send(*port_, ball);
       while (mailbox_.take().sequence != ball.sequence) continue;
       microseconds_.push_back(std::chrono::duration<double, std::micro>(Clock::now() - start).count());
+      server_waited_.note();
+      client_waited_.note();
     }
   }
 
@@ -155,6 +166,9 @@ class Rally {
   }
 
   const std::vector<double>& microseconds() const { return microseconds_; }
+  /// What server and client have waited for in each of these.
+  const std::vector<Waits>& server_waits() const { return server_waited_.each; }
+  const std::vector<Waits>& client_waits() const { return client_waited_.each; }
 
   nlohmann::json result() {
     std::sort(microseconds_.begin(), microseconds_.end());
@@ -169,6 +183,18 @@ class Rally {
   }
 
  private:
+  // What one process has waited for in each round trip.
+  struct Waited {
+    pid_t process = 0;
+    Waits before;
+    std::vector<Waits> each;
+    void begin(pid_t of) { before = waits_of(process = of); }
+    void note() {
+      const Waits now = waits_of(process);
+      each.push_back(now - std::exchange(before, now));
+    }
+  };
+
   // The server's side of the match may come later than ours.
   void warm_up() {
     for (int i = 0; i < 100; ++i) {
@@ -184,7 +210,20 @@ class Rally {
   std::unique_ptr<Port> port_;
   std::int64_t sequence_ = 0;
   std::vector<double> microseconds_;
+  Waited server_waited_, client_waited_;
 };
+
+nlohmann::json disk_us(const std::vector<Waits>& waits) {
+  auto out = nlohmann::json::array();
+  for (const Waits& one : waits) out.push_back(std::round(one.disk_us));
+  return out;
+}
+
+nlohmann::json processor_us(const std::vector<Waits>& waits) {
+  auto out = nlohmann::json::array();
+  for (const Waits& one : waits) out.push_back(std::round(one.processor_us));
+  return out;
+}
 
 std::string first_line_of(const std::vector<std::string>& command) {
   ChildProcess process(command);
@@ -272,7 +311,10 @@ nlohmann::json measure(const std::string& program, const BenchOptions& options) 
                             {"seed", seed},
                             {"load_threads", load_threads},
                             {"revision", record["revision"]},
-                            {"microseconds", rally.microseconds()}}
+                            {"microseconds", rally.microseconds()},
+                            {"disk_us", disk_us(rally.server_waits())},
+                            {"server_processor_us", processor_us(rally.server_waits())},
+                            {"client_processor_us", processor_us(rally.client_waits())}}
           << "\n";
   }
   for (auto& [variant, rally] : rallies) record["results"][variant] = rally.result();
