@@ -36,11 +36,11 @@ int synced(long call, int descriptor) {
 
 void publish_disk_waits() {
   const fs::path file = file_of(getpid());
-  const int descriptor = open(file.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0600);
+  const int descriptor = ::open(file.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0600);
   if (descriptor < 0 || ftruncate(descriptor, sizeof(Count)) != 0)
     throw std::system_error(errno, std::generic_category(), file.string());
   void* const shared = mmap(nullptr, sizeof(Count), PROT_READ | PROT_WRITE, MAP_SHARED, descriptor, 0);
-  close(descriptor);
+  ::close(descriptor);
   if (shared == MAP_FAILED) throw std::system_error(errno, std::generic_category(), file.string());
   disk_ns = static_cast<Count*>(shared);
 }
