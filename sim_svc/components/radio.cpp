@@ -1,7 +1,9 @@
 #include "sim_svc/components/radio.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <utility>
+#include <vector>
 
 namespace roci::sim::components {
 
@@ -47,7 +49,8 @@ Ending Radio::finish(Surroundings& around) {
   image.sent = true;
   around.effects.push_back({"send", done.image});
   around.out.push_back(image);
-  image.preview = {};  // nobody looks at it on board any more
+  // Nobody looks at it on board any more. An assignment of {} would keep its memory.
+  image.preview = std::vector<std::uint8_t>();
   return std::nullopt;
 }
 
