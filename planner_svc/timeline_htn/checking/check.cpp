@@ -9,12 +9,17 @@ namespace roci::planner::timeline_htn::checking {
 
 namespace {
 
-void check_goal_names(const Version& version, Faults& out) {
+void check_goals_served(const Version& version, Faults& out) {
+  const std::vector<model::Goal>& goals = version.model.problem->goals;
   for (const Part& part : version.parts)
-    for (const std::string& served : part.activity->goals_served)
-      if (std::ranges::find(version.model.problem->goals, served, &model::Goal::id) ==
-          version.model.problem->goals.end())
+    for (const std::string& served : part.activity->goals_served) {
+      const auto goal = std::ranges::find(goals, served, &model::Goal::id);
+      if (goal == goals.end())
         out.push_back(version.text(part) + " serves '" + served + "', and the problem has no such goal");
+      else if (version.network.between(temporal::origin_point, part.start()).lower < goal->release)
+        out.push_back(version.text(part) + " serves '" + served + "' and may start before " +
+                      to_text(goal->release) + ", when that goal is released");
+    }
 }
 
 }  // namespace
@@ -30,7 +35,7 @@ std::vector<std::string> faults(const model::Model& model, const temporal::Flexi
   check_timelines(version, out);
   check_needs(version, out);
   check_conditions(version, out);
-  check_goal_names(version, out);
+  check_goals_served(version, out);
   Decompositions decompositions = decompose(version, out);
   check_triggers(version, decompositions, out);
   check_mending(version, out);

@@ -26,7 +26,8 @@ namespace roci::planner::timeline_htn::checking {
 ///    its tests, constraints that the plan's network implies, and its conditions at its start; what triggers a
 ///    behaviour is followed by it, and all else that the plan does by that;
 ///  - decisions: those of the behaviours, with their choices, rules and arguments, open until the point that they name;
-///  - goals: reached in their windows, one after the other where the problem says so.
+///  - goals: reached in their windows, one after the other where the problem says so, and nothing that serves one
+///    starts before it is released.
 /// What cannot be read off the network is executed: the earliest and the latest schedule, those with one point as early
 /// or as late as it can be and the others opposite, and random ones (always the same for the same plan).
 std::vector<std::string> faults(const model::Model& model, const temporal::FlexiblePlan& plan);

@@ -167,8 +167,12 @@ void put_goals(const engine::Request& request, Model& model, std::vector<std::st
       if (node.op == temporal::ConditionOp::all_of) continue;
       const auto state = asked_for(model, node);
       if (state)
-        model.problem->goals.push_back(
-            {goal.key(), *state, since_origin(goal.opens), since_origin(goal.closes), {}});
+        model.problem->goals.push_back({goal.key(),
+                                        *state,
+                                        since_origin(goal.opens),
+                                        since_origin(goal.closes),
+                                        {},
+                                        since_origin(goal.opens)});
       else
         out.push_back("goal '" + goal.key() + "' asks for no state of the model");
     }

@@ -169,6 +169,12 @@ void check_goal(Complaints& complaints, const Problem& problem, Index index) {
   if (goal.opens > problem.horizon)
     complaints.error("its window opens after the horizon, " + temporal::to_text(problem.horizon),
                      "set 'horizon_s' later");
+  if (goal.opens <= goal.closes && goal.closes < goal.release)
+    complaints.error("its window closes before 'release_s'",
+                     "release it sooner, or let its window close later");
+  if (goal.opens <= problem.horizon && goal.release > problem.horizon)
+    complaints.error("it is released after the horizon, " + temporal::to_text(problem.horizon),
+                     "set 'horizon_s' later");
   if (comes_after_itself(problem, index))
     complaints.error("it comes after itself", "take one goal out of 'after'");
 }

@@ -283,7 +283,8 @@ struct Goal {
   Pattern state;                ///< objects alone
   temporal::Duration opens{0};  ///< earliest start of the state; counts from the origin
   temporal::Duration closes = temporal::no_bound;
-  std::vector<Index> after;  ///< goals that end first
+  std::vector<Index> after;       ///< goals that end first
+  temporal::Duration release{0};  ///< earliest start of each activity that serves it; counts from the origin
   friend bool operator==(const Goal&, const Goal&) = default;
 };
 

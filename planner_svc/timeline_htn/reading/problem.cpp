@@ -19,7 +19,7 @@ temporal::Duration seconds(const Entry& entry) {
 void read_goal(const Entry& entry, model::Goal& goal, const Names& names, Vocabulary& vocabulary) {
   Entry state = entry;
   if (entry.is_mapping()) {
-    entry.allow_only({"state", "window_s", "after"});
+    entry.allow_only({"state", "window_s", "release_s", "after"});
     state = entry.at("state");
     if (const auto window = entry.find("window_s")) {
       const auto both = window->items();
@@ -27,6 +27,11 @@ void read_goal(const Entry& entry, model::Goal& goal, const Names& names, Vocabu
       goal.opens = seconds(both[0]);
       goal.closes = seconds(both[1]);
       if (goal.opens == temporal::no_bound) both[0].fail("a window opens at some time; write 0");
+    }
+    if (const auto release = entry.find("release_s")) {
+      goal.release = seconds(*release);
+      if (goal.release == temporal::no_bound)
+        release->fail("a goal is released at some time; write its seconds");
     }
     if (const auto after = entry.find("after"))
       for (const Entry& one : one_or_more(*after, model::kMostGoals))

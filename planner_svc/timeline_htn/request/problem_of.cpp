@@ -213,8 +213,8 @@ void put_goal(const Request& request, const engine::Goal& goal, Model& model, st
           {goal.key(), "'" + temporal::describe(goal.achieved) +
                            "' is no state of a component of the model; ask for 'TIMELINE = STATE', where "
                            "the timeline is a component's or one by which its states are observed"});
-    model.problem->goals.push_back(
-        {goal.key(), *state, from_origin(request, goal.opens), from_origin(request, goal.closes), {}});
+    const Duration opens = from_origin(request, goal.opens);
+    model.problem->goals.push_back({goal.key(), *state, opens, from_origin(request, goal.closes), {}, opens});
     any = true;
   }
   if (!any) misfits.push_back({goal.key(), "it asks for nothing; name a state"});

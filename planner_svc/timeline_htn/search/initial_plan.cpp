@@ -45,7 +45,7 @@ PartialPlan::PartialPlan(Ground& ground, Bindings& bindings, const std::vector<I
   for (Index activity = mended; activity < activities_.size() && sound_; ++activity) {
     const model::Goal& goal = problem.goals[activities_[activity].goal];
     const TimePoint start = activities_[activity].start;
-    sound_ = constrain(0, start, goal.opens, goal.closes);
+    sound_ = constrain(0, start, goal.opens, goal.closes) && wait_for_release(activity);
     for (const Index earlier : before(activity))
       sound_ = sound_ && constrain(activities_[earlier].end, start, Duration{0});
     if (!sound_)

@@ -215,6 +215,7 @@ class PartialPlan {
   void add_mending();
 
   // timeline_steps.cpp
+  bool wait_for_release(Index activity);
   Index append(StateId state, Index activity, Index cause);
   bool wait_for_mending(Index activity, Index token);
   bool step_between(StateId state, Index cause, Index parent, bool complex_permitted);

@@ -25,6 +25,15 @@ Index PartialPlan::append(StateId state, Index activity, Index cause) {
   return token;
 }
 
+// What is done for a goal begins no sooner than the goal is released. Parts lie within what they are parts of, and a
+// state to rest in is nothing that is done.
+bool PartialPlan::wait_for_release(Index activity) {
+  const Index goal = goal_of(activity);
+  if (goal == kNone || ground_->at(activities_[activity].state).kind == StateKind::resting) return true;
+  const Duration release = ground_->model().problem->goals[goal].release;
+  return release == Duration{0} || constrain(0, activities_[activity].start, release);
+}
+
 // A step on the way to a goal begins after all that mends errors, unless its timeline can do nothing else.
 bool PartialPlan::wait_for_mending(Index activity, Index token) {
   if (tokens_[token].mends) return true;
@@ -42,6 +51,7 @@ bool PartialPlan::step_between(StateId state, Index cause, Index parent, bool co
   if (activity == kNone) return false;
   activities_[activity].placed = true;
   if (cause != kNone) activities_[activity].goal = activities_[cause].goal;
+  if (!wait_for_release(activity)) return false;
   const Index token = append(state, activity, cause);
   if (token == kNone || !wait_for_mending(activity, token)) return false;
   activities_[activity].token = token;

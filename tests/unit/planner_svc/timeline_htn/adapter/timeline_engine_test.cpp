@@ -118,6 +118,29 @@ TEST(TimelineEngine, WindowsOfTheRequestArePlannedWith) {
   EXPECT_THAT(answer(request).reason, HasSubstr("'ground.window = dim' is predicted, and is no value"));
 }
 
+// The window of a mission's goal opens: what is done for it starts no sooner, though its state is one to rest in, which
+// may also have come about before.
+TEST(TimelineEngine, NothingIsDoneForAGoalBeforeItsWindowOpens) {
+  Request request = greenhouse();
+  request.goals[0].achieved = temporal::compare("base.nav", ConditionOp::eq, state("parked", {"dock"}));
+  request.goals[0].opens = seconds(1500);
+  const Answer out = answer(request);
+  ASSERT_TRUE(out.plan) << out.reason;
+  ASSERT_THAT(out.plan->activities, SizeIs(1));
+  const temporal::NetworkDistances network(out.plan->point_count, temporal::all_constraints(*out.plan));
+  EXPECT_EQ(network.between(0, out.plan->activities[0].start_point).lower, seconds(500));
+  const checking::TimelineChecker checker;
+  EXPECT_THAT(checker.faults({request, {}, *out.plan}), testing::IsEmpty());
+  Request later = request;
+  later.goals[0].opens = seconds(1501);
+  EXPECT_THAT(checker.faults({later, {}, *out.plan}), testing::Contains(HasSubstr("may start before 501 s")));
+  request.goals[0].opens = seconds(900);
+  const Answer open = answer(request);
+  ASSERT_TRUE(open.plan) << open.reason;
+  const temporal::NetworkDistances now(open.plan->point_count, temporal::all_constraints(*open.plan));
+  EXPECT_EQ(now.between(0, open.plan->activities[0].start_point).lower, seconds(0));
+}
+
 // What is known of a graph by now closes its edges, for the engine and for its checker.
 TEST(TimelineEngine, ARelationMayBeObserved) {
   Request request = greenhouse();

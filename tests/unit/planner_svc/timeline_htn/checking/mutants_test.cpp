@@ -224,6 +224,9 @@ TEST(TimelineChecker, RefusesGoalsThatAreMissed) {
   EXPECT_THAT(goal([](auto& g) { g.closes = seconds(70); }, 1),
               Contains(HasSubstr("goal 'mint_watered', care.tending(mint), is not reached")));
   EXPECT_THAT(goal([](auto& g) { g.opens = seconds(1); }, 0), Contains(HasSubstr("goal 'basil_watered'")));
+  EXPECT_THAT(
+      goal([](auto& g) { g.release = seconds(1); }, 0),
+      Contains(HasSubstr("serves 'basil_watered' and may start before 1 s, when that goal is released")));
   EXPECT_THAT(goal([](auto& g) { g.after = {1}; }, 0), Contains(HasSubstr("goal 'basil_watered'")));
   EXPECT_THAT(goal([](auto& g) { g.state.terms[0].index = 1; }, 2),
               Contains(HasSubstr("goal 'home', base.at(well)")));

@@ -115,6 +115,7 @@ TEST(TimelineModel, TheProblemSaysWhereItBegins) {
   EXPECT_EQ(model.problem->horizon, seconds(600));
   EXPECT_EQ(to_text(model, *model.problem->initial.at(1), {}), "wheels.at(wp0)");
   EXPECT_EQ(model.problem->goals.at(0).opens, seconds(5));
+  EXPECT_EQ(model.problem->goals.at(0).release, seconds(0)) << "a window alone releases nothing later";
   EXPECT_THAT(model.problem->goals.at(1).after, ElementsAre(0U));
 }
 

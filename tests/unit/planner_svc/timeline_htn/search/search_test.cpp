@@ -6,15 +6,18 @@
 #include <map>
 #include <set>
 
+#include "core/temporal/network_distances.hpp"
 #include "core/temporal/schedule.hpp"
+#include "planner_svc/timeline_htn/checking/check.hpp"
 #include "tests/unit/planner_svc/timeline_htn/search/plans.hpp"
 
 namespace roci::planner::timeline_htn {
 namespace {
 
 using search::Heuristic, search::Order, search::Outcome, search::Resolver;
-using temporal::FlexiblePlan, temporal::PlanActivity, temporal::seconds;
-using testing::Contains, testing::ElementsAre, testing::HasSubstr, testing::IsSupersetOf, testing::Not;
+using temporal::Duration, temporal::FlexiblePlan, temporal::PlanActivity, temporal::seconds;
+using testing::Contains, testing::ElementsAre, testing::HasSubstr, testing::IsEmpty, testing::IsSupersetOf,
+    testing::Not;
 
 const std::string kRovers = R"yaml(domain: rovers
 types: [place]
@@ -169,6 +172,40 @@ TEST(TimelineSearch, GoalsComeInTheirOrder) {
   ASSERT_EQ(result.outcome, Outcome::solved) << result.reason;
   EXPECT_THAT(result.names(), IsSupersetOf({"wheels.drive(a, b)", "wheels.drive(b, a)", "wheels.drive(a, c)",
                                             "wheels.drive(c, d)"}));
+}
+
+// The tending of the mint is a complex state, `out` asks for one to rest in: the steps on the way to either, what those
+// need and all their parts wait for the release. A window alone lets the way begin sooner.
+TEST(TimelineSearch, NothingThatServesAGoalStartsBeforeItsRelease) {
+  const std::string problem = text_of_file("tests/missions/greenhouse/problem.yaml");
+  const auto starts_of = [&](const std::string& goals, const std::string& goal) {
+    const std::size_t at = problem.find("  goals:");
+    const model::Model model =
+        model_of({text_of_file("tests/missions/greenhouse/domain.yaml"),
+                  text_of_file("tests/missions/greenhouse/behaviours.yaml"),
+                  problem.substr(problem.find("objects:"), at - problem.find("objects:")) + "  goals: {" +
+                      goals + "}\n"});
+    const Planned result = planned(model);
+    EXPECT_EQ(result.outcome, Outcome::solved) << result.reason;
+    if (!result.plan) return std::pair(Duration{0}, std::size_t{0});
+    EXPECT_THAT(checking::faults(model, *result.plan), IsEmpty());
+    const temporal::NetworkDistances network(result.plan->point_count,
+                                             temporal::all_constraints(*result.plan));
+    Duration first = temporal::no_bound;
+    std::size_t count = 0;
+    for (const auto& activity : result.plan->activities) {
+      if (activity.goals_served != std::vector<std::string>{goal}) continue;
+      first = std::min(first, network.between(0, activity.start_point).lower);
+      ++count;
+    }
+    return std::pair(first, count);
+  };
+  EXPECT_EQ(starts_of("mint: {state: care.tending(mint), release_s: 300}", "mint"),
+            std::pair(temporal::seconds(300), std::size_t{7}));
+  EXPECT_EQ(starts_of("out: {state: base.at(row_a), release_s: 300}", "out"),
+            std::pair(temporal::seconds(300), std::size_t{2}));
+  EXPECT_EQ(starts_of("out: {state: base.at(row_a), window_s: [300, none]}", "out"),
+            std::pair(temporal::seconds(0), std::size_t{2}));
 }
 
 // Of components that have nothing else to do with each other, too.
