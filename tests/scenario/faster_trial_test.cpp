@@ -175,7 +175,7 @@ TEST_F(FasterTrial, AStoppedTrialEndsSafe) {
   EXPECT_GE(stopped, 600'000'000);
   for (const char* nav : {"primary.nav", "scout.nav"}) EXPECT_THAT(last_of(nav), HasSubstr("idle-at"));
   EXPECT_THAT(last_of("primary.locomotion"), AnyOf(HasSubstr("at("), HasSubstr("blocked(")));
-  EXPECT_THAT(last_of("scout.locomotion"), AnyOf(HasSubstr("at("), HasSubstr("hazard_detected(")));
+  EXPECT_THAT(last_of("scout.locomotion"), AnyOf(HasSubstr("at("), HasSubstr("drive_interrupted(")));
   for (const nlohmann::json& deed : flight.deeds) EXPECT_LE(deed["time_us"].get<std::int64_t>(), stopped);
   EXPECT_THAT(deeds("motion"), ::testing::Not(Contains("primary w9")));
   EXPECT_EQ(deeds("downlink").size(), 0U);

@@ -199,6 +199,25 @@ TEST(MethodRun, AnErrorThatIsNotRepairedAnyMoreStands) {
   EXPECT_EQ(run.failed({.error = "stalled"}, example().rest), state("failed"));
 }
 
+// What ends a drive of the scout of missions/faster says in which state its locomotion is left: only what its wheels, its
+// cameras or its planner found is a hazard.
+TEST(MethodRun, AnInterruptedDriveOfTheScoutIsNoHazard) {
+  const Methods scout = methods::read_methods(
+      mission::Entry::load(ROCI_SOURCE_DIR "/missions/faster/scout_locomotion.yaml").at("dedicated"));
+  for (const auto& [name, place] : {std::pair("TraverseWithSS", "w3"), std::pair("ComeBack", "w2")}) {
+    MethodRun run(scout.methods.at(name), {{"from", "w2"}, {"to", "w3"}});
+    run.begin();
+    for (const char* error :
+         {"owner-lost", "no-answer", "call-timeout", "owner-restarted", "cancelled", "stopped"})
+      EXPECT_EQ(run.failed({.error = error}, scout.rest), state("drive_interrupted", {place}))
+          << name << error;
+    for (const char* error : {"no-go", "blocked", "collision", "no-path", "path-invalid", "repair-overrun"})
+      EXPECT_EQ(run.failed({.error = error}, scout.rest), state("hazard_detected", {place})) << name << error;
+    for (const char* error : {"fault", "bogged-down"})
+      EXPECT_EQ(run.failed({.error = error}, scout.rest), state("lost")) << name << error;
+  }
+}
+
 TEST(MethodRun, ARepairMayShowAStateOfItsOwn) {
   const Methods methods = methods::read_methods(
       mission::Entry::parse(

@@ -156,7 +156,8 @@ TEST(FasterModel, WhateverErrorsMeetThereIsAPlan) {
     for (const char* primary : {"at", "blocked"})
       for (const char* scout_path : {"ready", "no_path"})
         for (const auto& [scout, place] :
-             {Begin{"at", "w3"}, Begin{"at", "w4"}, Begin{"hazard_detected", "w4"}, Begin{"lost", ""}})
+             {Begin{"at", "w3"}, Begin{"at", "w4"}, Begin{"hazard_detected", "w4"},
+              Begin{"drive_interrupted", "w4"}, Begin{"lost", ""}})
           for (const bool changed : {false, true}) {
             if (changed && path == std::string("no_path")) continue;  // takes its time
             model::Model model = trial;
@@ -177,11 +178,21 @@ TEST(FasterModel, WhateverErrorsMeetThereIsAPlan) {
           }
 }
 
+// No hazard is known, and the scout is brought back all the same: the next cycle begins beside the primary.
+TEST(FasterModel, AScoutWhoseDriveWasInterruptedIsBroughtBack) {
+  const FlexiblePlan plan = checked_plan("drive_interrupted");
+  EXPECT_EQ(count(plan, "bring_back_interrupted"), 1U);
+  EXPECT_EQ(count(plan, "avoid_hazard"), 0U);
+  EXPECT_EQ(count(plan, "scout.coming_back(w1, w0)"), 1U);
+  EXPECT_EQ(count(plan, "navigation.team_cycle("), 9U);
+}
+
 // A goal was given up since what mends an error failed again and again: the goals that are left are planned without it.
 TEST(FasterModel, WhatMendsNothingIsNotTriedForTheGoalsThatAreLeft) {
   for (const auto& [problem, left] :
        std::vector<std::pair<std::string, std::string>>{{"marker_not_seen", "not_seen_all_the_same"},
                                                         {"hazard_detected", "hazard_all_the_same"},
+                                                        {"drive_interrupted", "interrupted_all_the_same"},
                                                         {"primary_blocked", "blocked_all_the_same"},
                                                         {"scout_no_path", "without_path_all_the_same"},
                                                         {"goal_change", "new_goals_all_the_same"}}) {
