@@ -187,6 +187,36 @@ TEST(FasterModel, AScoutWhoseDriveWasInterruptedIsBroughtBack) {
   EXPECT_EQ(count(plan, "navigation.team_cycle("), 9U);
 }
 
+// R131: where several ways lead on it stays open which way-point comes next; once one was chosen its way is planned, and
+// nothing is asked there.
+TEST(FasterModel, AGuidedTraverseLeavesOpenWhichWayPointComesNext) {
+  model::Model model = load("missions/faster/problem.yaml");
+  model.problem->goals.resize(1);
+  const auto& states = model.components[model.problem->goals[0].state.component].states;
+  model.problem->goals[0].state.state =
+      static_cast<Index>(std::ranges::find(states, "traversed_guided", &model::State::name) - states.begin());
+  const auto open = [](const FlexiblePlan& plan) {
+    std::vector<std::string> out;
+    for (const auto& decision : plan.decisions) {
+      if (!decision.id.ends_with(".next")) continue;
+      out.emplace_back();
+      for (const auto& choice : decision.choices) out.back() += choice.name + " ";
+    }
+    return out;
+  };
+  const FlexiblePlan first = plan_for(model);
+  EXPECT_THAT(faults(model, first), IsEmpty());
+  EXPECT_THAT(open(first), testing::ElementsAre("w1 v1 u1 ", "w4 n4 "));
+  for (const char* component : {"primary_locomotion", "scout_locomotion"})
+    begin_with(model, component, "at", "w3");
+  begin_with(model, "scout", "bound_for", "n4");
+  const FlexiblePlan chosen = plan_for(model);
+  EXPECT_THAT(faults(model, chosen), IsEmpty());
+  EXPECT_THAT(open(chosen), IsEmpty());
+  EXPECT_EQ(count(chosen, "navigation.team_cycle(w3, n4)"), 1U);
+  EXPECT_EQ(count(chosen, "navigation.team_cycle("), 6U);
+}
+
 // A goal was given up since what mends an error failed again and again: the goals that are left are planned without it.
 TEST(FasterModel, WhatMendsNothingIsNotTriedForTheGoalsThatAreLeft) {
   for (const auto& [problem, left] :
