@@ -93,6 +93,7 @@ void Cycle::resume(const Past& past, std::vector<Block> blocks, std::uint32_t la
 Report Cycle::run(Time now) {
   Report report;
   report.notes = std::exchange(notes_, {});
+  searched_ = {};
   const auto does = [&](Activity what, bool changes) {
     if (!changes) return;
     report.done.push_back(what);

@@ -188,6 +188,7 @@ class Cycle {
   std::uint32_t last_block_ = 0;
   std::map<model::TaskIndex, std::uint32_t>
       planned_;                     // after the newest run: requests not begun, and their chains
+  search::Outcome searched_;        // how the newest search of this run ended, without its plan
   std::vector<std::string> notes_;  // since the cycle before
   bool to_schedule_ = true;         // something waits that was not tried in this situation
   bool scheduled_ = false;          // ever

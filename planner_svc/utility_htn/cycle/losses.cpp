@@ -24,7 +24,8 @@ void Cycle::tell_losses(Time now, Report& report) {
   for (const auto& [task, chain] : lost) asked.insert(task);
   const std::vector<double> newest = values_now(now);
   const search::Problem problem = problem_for(now, asked, newest);
-  for (const auto& [task, chain] : lost) report.notes.push_back(search::why_not(problem, {}, chain).text);
+  for (const auto& [task, chain] : lost)
+    report.notes.push_back(search::why_not(problem, searched_, chain).text);
 }
 
 }  // namespace roci::planner::utility_htn::cycle

@@ -59,6 +59,7 @@ Cycle::Found Cycle::plan_for(Time now, const std::set<TaskIndex>& candidates, Re
     search::Outcome outcome =
         settings_.search == Search::anytime ? search_in_passes(problem, report) : search::search(problem);
     report.explored += outcome.statistics.entries;
+    searched_ = {.plan = {}, .complete = outcome.complete, .statistics = outcome.statistics};
     const search::Plan& plan = outcome.plan;
     const bool better = known == nullptr || beats(plan.utility, plan.cost, known->utility, known->cost);
     return {std::move(outcome.plan), better};
@@ -66,6 +67,7 @@ Cycle::Found Cycle::plan_for(Time now, const std::set<TaskIndex>& candidates, Re
   const search::RobustSettings judging;
   search::RobustOutcome robust = search::search_robust(problem, judging, network_.exploration_bound);
   report.explored += robust.explored;
+  searched_ = {.plan = {}, .complete = robust.outcome.complete, .statistics = robust.outcome.statistics};
   const search::Candidate& chosen = robust.candidates[robust.chosen];
   const bool better = known == nullptr || beats(chosen.judged, chosen.plan.cost,
                                                 search::judged(problem, *known, judging), known->cost);

@@ -67,12 +67,8 @@ class WhyNotAsked {
     if (!(utility > RankVector{}))
       return {WhyNot::worthless, name_ + " is not planned, since it would bring nothing and cost " +
                                      number(table_.cost(chain_))};
-    return {
-        WhyNot::not_tried,
-        name_ + " would fit into the plan from " + to_text(starts->front()) + " on" +
-            (outcome_.complete ? ": its batch was planned before what now makes it possible"
-                               : ": the search ended after " + number(double(outcome_.statistics.entries)) +
-                                     " entries, before it was tried")};
+    return {WhyNot::not_tried,
+            name_ + " would fit into the plan from " + to_text(starts->front()) + " on: " + of_search()};
   }
 
  private:
@@ -92,6 +88,14 @@ class WhyNotAsked {
     if (std::ranges::find(problem_.closed, request) == problem_.closed.end()) return std::nullopt;
     return Explanation{WhyNot::closed,
                        name_ + " is not planned, since nobody asks for " + asked + " any more"};
+  }
+
+  // Says why the search has not found what fits.
+  std::string of_search() const {
+    if (outcome_.complete) return "its batch was planned before what now makes it possible";
+    if (outcome_.statistics.nodes == 0) return "no search was made since it was taken out";
+    return "the search ended after " + number(double(outcome_.statistics.entries)) +
+           " entries, before it was tried";
   }
 
   Explanation too_dear() const {

@@ -28,7 +28,7 @@ struct Explanation {
   std::string text;  ///< one sentence for people, which names tasks, timelines, times and amounts
 };
 
-/// Says why the chain is not in the outcome's plan. The first reason in the order of WhyNot that holds for the whole
+/// Says why the chain is not in the outcome's plan; an outcome without nodes is of no search. The first reason in the order of WhyNot that holds for the whole
 /// plan is given; the timelines are left as they were.
 Explanation why_not(const Problem& problem, const Outcome& outcome, std::uint32_t chain);
 

@@ -209,6 +209,26 @@ TEST_F(CycleTest, LessEnergyThanForeseenMakesRoomForTheBetterOne) {
   EXPECT_THAT(cycle.timelines().conflicts(40s, temporal::no_bound), IsEmpty());
 }
 
+// All is scheduled anew when a value changes, batch by batch: the sample comes before what mends the lander.
+TEST_F(CycleTest, WhatIsLostToTheOrderOfBatchesIsNamedSo) {
+  network_.timelines[testing::kHealth].initial = 1;
+  model::Task& idle = network_.tasks[task_named(network_, "idle")];
+  idle.impacts.push_back({testing::kHealth, temporal::ImpactKind::assign, temporal::ImpactWhen::at_end, {0}});
+  idle.batch = 1;
+  Cycle cycle = make();
+  cycle.run(Time{0});
+  ASSERT_THAT(requests(cycle), ElementsAre("idle", "view"));
+  cycle.request(task_named(network_, "image"));
+  cycle.run(Time{0});
+  ASSERT_THAT(requests(cycle), Contains("sample"));
+  EXPECT_EQ(cycle.set_value(0, 120), "");
+  const Report report = cycle.run(Time{0});
+  EXPECT_THAT(requests(cycle), Not(Contains("sample")));
+  EXPECT_THAT(report.notes,
+              Contains(HasSubstr("'sample/plain' would fit into the plan from 330 s on: its batch was "
+                                 "planned before what now makes it possible")));
+}
+
 TEST_F(CycleTest, WhatHasBegunIsFinishedLaterWhenItsFirstLinkTakesLonger) {
   Cycle cycle = make();
   cycle.run(Time{0});

@@ -109,6 +109,8 @@ TEST_F(WhyNotTest, TellsDataWithoutDownlinkWorthlessnessAndAnEarlyEnd) {
   EXPECT_EQ(
       early.text,
       "'other' would fit into the plan from 0 s on: the search ended after 1 entries, before it was tried");
+  EXPECT_EQ(search::why_not(toy.problem(100), {}, toy.chain("other")).text,
+            "'other' would fit into the plan from 0 s on: no search was made since it was taken out");
 }
 
 }  // namespace
