@@ -26,8 +26,8 @@ namespace {
 namespace fs = std::filesystem;
 namespace reading = planner::utility_htn::reading;
 using planner::utility_htn::model::Network;
-using ::testing::AllOf, ::testing::Contains, ::testing::Each, ::testing::Ge, ::testing::HasSubstr,
-    ::testing::IsEmpty, ::testing::Le, ::testing::Not;
+using ::testing::AllOf, ::testing::AnyOf, ::testing::Contains, ::testing::Each, ::testing::Ge,
+    ::testing::HasSubstr, ::testing::IsEmpty, ::testing::Le, ::testing::Not;
 
 /// Says what comes as a surprise, and when: what holds from the beginning is told before the first plan, and what the
 /// ground orders when the lander hears it.
@@ -58,6 +58,9 @@ const std::map<std::string, Surprise> kSurprises{
 };
 
 constexpr double kLightTimeS = 2600;  // links of the scenarios
+// When a value that was measured has all scheduled anew, batch by batch, data may find their downlink again only in the
+// cycle that follows.
+constexpr char kBatchCameFirst[] = "its batch was planned before what now makes it possible";
 
 double seconds(long long us) { return static_cast<double>(us) / 1e6; }
 std::string task_of(const std::string& activity) { return activity.substr(0, activity.rfind('#')); }
@@ -113,7 +116,8 @@ int expect_losses_named(const HeardFlight& flight) {
             event.header().stamp_us() <= after.header().stamp_us())
           said.push_back(event.text());
       EXPECT_THAT(said, Contains(HasSubstr("'" + request + "/"))) << seconds(after.made_us());
-      EXPECT_THAT(said, Contains(HasSubstr(" is not planned, since "))) << seconds(after.made_us());
+      EXPECT_THAT(said, Contains(AnyOf(HasSubstr(" is not planned, since "), HasSubstr(kBatchCameFirst))))
+          << seconds(after.made_us());
       ++out;
     }
   }
