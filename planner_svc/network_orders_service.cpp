@@ -144,7 +144,9 @@ std::vector<std::string> NetworkOrders::faults_of(const v1::NetworkOrder& order)
   const auto networks = std::ranges::count_if(waiting_, [](const ModelChange& one) { return !!one.model; });
   if (networks >= static_cast<std::ptrdiff_t>(kNetworksWaiting))
     return {std::to_string(kNetworksWaiting) + " networks wait for the planner already; send it later"};
-  if (bytes::crc_32({order.content().begin(), order.content().end()}) != order.checksum())
+  const std::string_view content(reinterpret_cast<const char*>(order.content().data()),
+                                 order.content().size());
+  if (bytes::crc_32(content) != order.checksum())
     return {"the checksum is that of another content: bytes were changed on the way; send it again"};
   return {};
 }
