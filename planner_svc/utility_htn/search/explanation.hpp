@@ -28,8 +28,8 @@ struct Explanation {
   std::string text;  ///< one sentence for people, which names tasks, timelines, times and amounts
 };
 
-/// Says why the chain is not in the outcome's plan; an outcome without nodes is of no search. The first reason in the order of WhyNot that holds for the whole
-/// plan is given; the timelines are left as they were.
+/// Says why the chain is not in the outcome's plan; an outcome without nodes is of no search. The first reason in the
+/// order of WhyNot that holds for the whole plan is given; the timelines are left as they were.
 Explanation why_not(const Problem& problem, const Outcome& outcome, std::uint32_t chain);
 
 }  // namespace roci::planner::utility_htn::search
