@@ -32,6 +32,7 @@ lib::Place start_of(lib::Client& client, const ReachArguments& arguments) {
   const auto& ways = client.view().ways();
   const auto known = [&] { return arguments.robot.empty() ? !ways.empty() : ways.contains(arguments.robot); };
   client.wait(known, std::chrono::milliseconds(2000));
+  client.wait([] { return false; }, std::chrono::milliseconds(300));  // newer places come right behind
   if (!known())
     throw std::invalid_argument("it is not known where " +
                                 (arguments.robot.empty() ? "the robot" : "robot '" + arguments.robot + "'") +

@@ -12,7 +12,7 @@ launcher=$!
 trap 'kill -INT $launcher 2>/dev/null; wait $launcher; rm -rf "$folder"' EXIT
 
 timeout 30 "${roci[@]}" events --count 1 >"$folder/first"
-for _ in {1..100}; do
+while kill -0 "$launcher" 2>/dev/null; do
   output=$(timeout 40 "${roci[@]}" subway --json --svg "$picture" 2>/dev/null)
   code=$?
   grep -qE '"outcome": ?"(negative|positive)"' <<<"$output" && break
