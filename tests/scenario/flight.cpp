@@ -32,6 +32,10 @@ Flight fly(const std::string& mission, const std::string& dds, std::uint64_t see
   return {ended.exit_code, last_line_as_json(ended.output)};
 }
 
+std::string reference_trace(const std::string& mission, const std::string& more) {
+  return fly(mission, "inproc", 1, more).summary.value("trace_sha256", "no trace");
+}
+
 nlohmann::json last_line_as_json(const std::string& output) {
   const auto end = output.find_last_not_of('\n');
   if (end == std::string::npos) return nlohmann::json::object();

@@ -36,6 +36,10 @@ struct Flight {
 Flight fly(const std::string& mission, const std::string& dds, std::uint64_t seed = 1,
            const std::string& more = "");
 
+// Flies the mission over inproc and returns the trace, with which that of a flight over DDS is compared. It is flown
+// for each comparison: CTest starts a process for each test, in which no other test leaves a trace behind.
+std::string reference_trace(const std::string& mission, const std::string& more = "");
+
 std::string text_of(const std::filesystem::path& file);
 
 // Replaces the first place of `right` in a file; a test fails where it does not stand there.

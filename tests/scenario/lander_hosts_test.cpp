@@ -42,10 +42,8 @@ class LanderHosts : public ::testing::TestWithParam<const char*> {
     auto steps = fly_apart(mission, scenario, "max");
     if (steps.empty()) GTEST_SKIP() << "this user cannot make network namespaces (ip netns add)";
     expect_flown(steps);
-    static std::string reference;
-    if (reference.empty())
-      reference = fly(mission, "inproc", 1, "--scenario " + scenario).summary.value("trace_sha256", "none");
-    EXPECT_EQ(steps["lander"].printed.value("trace_sha256", ""), reference);
+    EXPECT_EQ(steps["lander"].printed.value("trace_sha256", ""),
+              reference_trace(mission, "--scenario " + scenario));
   }
 
   const fs::path folder_ = fs::temp_directory_path() / ("roci_lander_hosts_" + std::to_string(::getpid()));
