@@ -132,7 +132,7 @@ int show_networks(lib::Client& client, bool as_json) {
     std::cerr << "roci: no mission answers; is it running there (roci status)?\n";
     return kNoMission;
   }
-  client.wait([] { return false; }, std::chrono::milliseconds(300));  // statuses come right behind
+  client.catch_up();
   json list = json::array();
   for (const auto& [key, status] : client.networks()) {
     list.push_back(to_json(status));

@@ -156,7 +156,7 @@ int list_decisions(lib::Client& client, bool as_json) {
     std::cerr << "roci: no mission answers; is it running there (roci status)?\n";
     return kNoMission;
   }
-  client.wait([] { return false; }, std::chrono::milliseconds(300));  // decisions come right behind
+  client.catch_up();
   json list = json::array();
   for (const auto& [id, decision] : client.view().decisions()) {
     if (decision.decision_state() != v1::DECISION_OPEN) continue;

@@ -31,12 +31,11 @@ lib::Place start_of(lib::Client& client, const ReachArguments& arguments) {
   if (arguments.from_x_m && arguments.from_y_m) return {*arguments.from_x_m, *arguments.from_y_m};
   const auto& ways = client.view().ways();
   const auto known = [&] { return arguments.robot.empty() ? !ways.empty() : ways.contains(arguments.robot); };
-  client.wait(known, std::chrono::milliseconds(2000));
-  client.wait([] { return false; }, std::chrono::milliseconds(300));  // newer places come right behind
-  if (!known())
+  if (!client.wait(known, std::chrono::milliseconds(2000)))
     throw std::invalid_argument("it is not known where " +
                                 (arguments.robot.empty() ? "the robot" : "robot '" + arguments.robot + "'") +
                                 " is; say where the way begins, e.g. --from 40 40");
+  client.catch_up();
   if (arguments.robot.empty() && ways.size() > 1)
     throw std::invalid_argument("there are several robots; name one with --robot");
   return (arguments.robot.empty() ? ways.begin()->second : ways.at(arguments.robot)).back();

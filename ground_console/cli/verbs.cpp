@@ -139,7 +139,7 @@ int cancel_goal(lib::Client& client, const std::string& issuer, const std::strin
 
 int list_goals(lib::Client& client, bool why, bool as_json) {
   if (!client.wait_for_mission(kAnswerLimit)) return no_mission(client.view());
-  client.wait([] { return false; }, std::chrono::milliseconds(300));  // the other goals come right behind
+  client.catch_up();
   json list = json::array();
   for (const auto& [key, status] : client.view().goals()) {
     if (as_json) {
@@ -200,7 +200,7 @@ int show_values(const lib::MissionView& view, const std::string& name, bool as_j
 int show_executed(lib::Client& client, std::uint32_t version, bool as_json) {
   if (!client.wait_for_mission(kAnswerLimit)) return no_mission(client.view());
   client.wait([&] { return !client.view().executed().empty(); }, std::chrono::milliseconds(1000));
-  client.wait([] { return false; }, std::chrono::milliseconds(300));
+  client.catch_up();
   tell_whose(client.view());
   const auto& plans = client.view().executed();
   const auto found = version == 0 && !plans.empty() ? std::prev(plans.end()) : plans.find(version);
@@ -234,7 +234,7 @@ int show_timelines(lib::Client& client, const std::vector<std::string>& names, c
                    bool as_json) {
   if (!client.wait_for_mission(kAnswerLimit)) return no_mission(client.view());
   client.wait([&] { return client.view().plan() != nullptr; }, std::chrono::milliseconds(1000));
-  client.wait([] { return false; }, std::chrono::milliseconds(300));
+  client.catch_up();
   tell_whose(client.view());
   const Timelines timelines = timelines_of(client.view(), names);
   for (const std::string& name : names) {

@@ -166,6 +166,10 @@ bool Client::wait(const std::function<bool()>& done, milliseconds limit) {
   return true;
 }
 
+void Client::catch_up() {
+  wait([] { return false; }, milliseconds(300));
+}
+
 void Client::settle(milliseconds quiet, milliseconds limit) {
   const auto end = services::clock::wall_now() + limit;
   const auto known = [this] {

@@ -45,8 +45,8 @@ const Sample* chosen(const std::map<std::string, Sample>& all, const std::string
 template <class Sample>
 int show(lib::Client& client, const std::map<std::string, Sample>& all, const Views<Sample>& views,
          const OutlookArguments& arguments, bool as_json) {
-  client.wait([&] { return chosen(all, arguments.robot) != nullptr; }, std::chrono::milliseconds(2000));
-  client.wait([] { return false; }, std::chrono::milliseconds(300));  // newer ones come right behind
+  if (client.wait([&] { return chosen(all, arguments.robot) != nullptr; }, std::chrono::milliseconds(2000)))
+    client.catch_up();
   const Sample* const sample = chosen(all, arguments.robot);
   if (sample == nullptr) {
     std::cerr << "roci: no planner tells of this"
