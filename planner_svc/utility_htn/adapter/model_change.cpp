@@ -3,6 +3,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "planner_svc/utility_htn/adapter/index_of.hpp"
 #include "planner_svc/utility_htn/adapter/plan_of.hpp"
 #include "planner_svc/utility_htn/adapter/planned_network.hpp"
 #include "planner_svc/utility_htn/assessor/subway_assessor.hpp"
@@ -27,13 +28,6 @@ const flattening::Chain* counterpart(const Network& network, const flattening::C
            std::ranges::equal(other.links, chain.links, {}, task_id(next), task_id(network));
   });
   return found == chains.chains.end() ? nullptr : &*found;
-}
-
-template <class Items, class Member>
-std::optional<std::uint32_t> index_of(const Items& items, const std::string& name, Member member) {
-  const auto found = std::ranges::find(items, name, member);
-  if (found == items.end()) return std::nullopt;
-  return static_cast<std::uint32_t>(found - items.begin());
 }
 
 // Takes over what was found out: what is done, what contingencies ask for, values that are no priors, and timelines as
@@ -115,9 +109,8 @@ Network PlannedNetwork::replace(Network next, const std::map<std::string, tempor
   const flattening::Chains old_chains = std::exchange(chains_, flattening::flatten_all(network_));
   const std::unique_ptr<cycle::Cycle> old = std::move(cycle_);
   assessor_ = std::make_unique<assessor::SubwayAssessor>(network_, chains_);
-  make_cycle(now);
   delivery_.replaced(before);
-  if (settings_.downlinks) cycle_->deliver_by(delivery_);
+  begin(now);
   std::vector<Block> blocks;
   for (Block block : old->blocks()) {
     if (!block.begun()) continue;

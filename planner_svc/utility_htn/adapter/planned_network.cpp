@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "planner_svc/utility_htn/adapter/index_of.hpp"
 #include "planner_svc/utility_htn/assessor/subway_assessor.hpp"
 
 namespace roci::planner::utility_htn::adapter {
@@ -23,12 +24,8 @@ PlannedNetwork::PlannedNetwork(model::Network network, const cycle::Settings& se
 PlannedNetwork::~PlannedNetwork() = default;
 
 void PlannedNetwork::begin(Time origin) {
-  make_cycle(origin);
-  if (settings_.downlinks) cycle_->deliver_by(delivery_);
-}
-
-void PlannedNetwork::make_cycle(Time origin) {
   cycle_ = std::make_unique<cycle::Cycle>(network_, chains_, *assessor_, *scheduler_, origin, settings_);
+  if (settings_.downlinks) cycle_->deliver_by(delivery_);
 }
 
 Situation PlannedNetwork::situation(Time now) const {
@@ -36,18 +33,15 @@ Situation PlannedNetwork::situation(Time now) const {
 }
 
 std::optional<model::TaskIndex> PlannedNetwork::task_named(const std::string& id) const {
-  const auto task = std::ranges::find(network_.tasks, id, &model::Task::id);
-  if (task == network_.tasks.end()) return std::nullopt;
-  return static_cast<model::TaskIndex>(task - network_.tasks.begin());
+  return index_of(network_.tasks, id, &model::Task::id);
 }
 
 // What tasks have made of an internal timeline since the ground has set it stands in the plan that is executed.
 bool PlannedNetwork::tasks_move(const std::string& timeline) const {
-  const auto known = std::ranges::find(network_.timelines, timeline, &temporal::timelines::Definition::name);
-  if (known == network_.timelines.end() || known->reported) return false;
-  const auto index = static_cast<temporal::timelines::Index>(known - network_.timelines.begin());
+  const auto index = index_of(network_.timelines, timeline, &temporal::timelines::Definition::name);
+  if (!index || network_.timelines[*index].reported) return false;
   return std::ranges::any_of(network_.tasks, [&](const model::Task& task) {
-    return std::ranges::any_of(task.impacts, [&](const auto& impact) { return impact.timeline == index; });
+    return std::ranges::any_of(task.impacts, [&](const auto& impact) { return impact.timeline == *index; });
   });
 }
 
@@ -70,10 +64,10 @@ void PlannedNetwork::place_fixed_tasks(Time origin) {
 }
 
 std::string PlannedNetwork::learn(const std::string& parameter, double value) {
-  const auto known = std::ranges::find(network_.parameters, parameter, &model::Parameter::name);
-  if (known == network_.parameters.end()) return "the network has no parameter '" + parameter + "'";
+  const auto known = index_of(network_.parameters, parameter, &model::Parameter::name);
+  if (!known) return "the network has no parameter '" + parameter + "'";
   if (cycle_ == nullptr) return "nothing is planned yet";
-  return cycle_->set_value(static_cast<model::ParameterIndex>(known - network_.parameters.begin()), value);
+  return cycle_->set_value(*known, value);
 }
 
 }  // namespace roci::planner::utility_htn::adapter

@@ -60,7 +60,6 @@ class PlannedNetwork {
 
  private:
   std::vector<std::string> in_the_way_of(const model::Network& next) const;
-  void make_cycle(temporal::Time origin);
 
   model::Network network_;
   flattening::Chains chains_;

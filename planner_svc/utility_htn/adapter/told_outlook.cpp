@@ -9,7 +9,7 @@ void ToldOutlook::tell(PlannedNetwork& planned, const cycle::Report& report,
                        engine::StepOutput& out) {
   const Situation situation = planned.situation(now);
   outlooks_.forgotten(situation, begun_before);
-  if (!report.changed && report.explored == 0 && !std::exchange(to_look_, false)) return;
+  if (!report.changed && report.explored == 0 && !to_look_) return;
   to_look_ = false;
   if (planned.plans_downlinks())  // without the Downlink Manager there is no schedule to tell
     if (engine::DownlinkSchedule schedule = schedule_of(situation); schedule != schedule_) {

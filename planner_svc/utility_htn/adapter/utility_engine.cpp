@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "planner_svc/utility_htn/adapter/fit.hpp"
+#include "planner_svc/utility_htn/adapter/index_of.hpp"
 #include "planner_svc/utility_htn/adapter/products.hpp"
 #include "planner_svc/utility_htn/reading/binary.hpp"
 
@@ -101,8 +102,7 @@ std::vector<std::string> UtilityEngine::replace_network(const engine::ModelChang
   goals_.hear_again(planned_);
   for (const auto& timeline : planned_.network().timelines)
     if (!timeline.reported &&
-        std::ranges::find(before.timelines, timeline.name, &temporal::timelines::Definition::name) ==
-            before.timelines.end())
+        !index_of(before.timelines, timeline.name, &temporal::timelines::Definition::name))
       published_.introduce(timeline.name);
   return {};
 }
@@ -131,13 +131,11 @@ void UtilityEngine::hear(const StepInputs& inputs) {
 void UtilityEngine::hear_observation(const engine::Observation& observation) {
   newest_.insert_or_assign(observation.timeline, observation.value);
   const auto& timelines = planned_.network().timelines;
-  const auto timeline =
-      std::ranges::find(timelines, observation.timeline, &temporal::timelines::Definition::name);
-  if (timeline == timelines.end() || timeline->is_claim()) return;
-  if (const auto number = number_of(*timeline, observation.value)) {
-    planned_.cycle().observe(static_cast<temporal::timelines::Index>(timeline - timelines.begin()),
-                             observation.sampled, *number);
-    if (!timeline->reported) published_.renew();  // the plan keeps it for who comes after
+  const auto index = index_of(timelines, observation.timeline, &temporal::timelines::Definition::name);
+  if (!index || timelines[*index].is_claim()) return;
+  if (const auto number = number_of(timelines[*index], observation.value)) {
+    planned_.cycle().observe(*index, observation.sampled, *number);
+    if (!timelines[*index].reported) published_.renew();  // the plan keeps it for who comes after
   }
 }
 
