@@ -85,8 +85,8 @@ class Client {
   std::optional<v1::PathReply> find_path(Place from, Place to, const std::string& service,
                                          std::chrono::milliseconds limit, std::string& why);
 
-  /// Handles for 300 ms what comes right behind the first sample of a topic: other instances, and in simulated time, where
-  /// writers keep several samples of each, newer ones.
+  /// Handles for 300 ms what comes right behind the first sample of a topic: other instances, and in simulated time,
+  /// where writers keep several samples of each, newer ones.
   void catch_up();
   /// Waits until nothing that is new to the view has come for `quiet`: services tell their newest state one after the
   /// other, as they are found. Gives up after `limit`.
