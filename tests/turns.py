@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """turns.py BUILD: holds tests/turns.txt to its word. Each row names tests that there are and that are not in ./check --full alone, none stands
-twice, and the three turns take about as long. That no test is left out follows: ./check leaves out what stands there under another turn, and
+twice, and all rounds take about as long. That no test is left out follows: ./check leaves out what stands there under another turn, and
 ./check --full does not read the file. No two tests have one name, since CTest would merge their labels."""
 import json
 import re
@@ -9,8 +9,8 @@ import sys
 from collections import Counter
 from pathlib import Path
 
-TURNS = 3
-UNEVEN = 1.25  # the longest turn by the shortest
+ROUNDS = 9
+UNEVEN = 1.25  # the longest round by the shortest
 
 
 def main(build):
@@ -22,21 +22,23 @@ def main(build):
         if "full" not in labels:
             names.append(test["name"])
     page = Path(__file__).with_name("turns.txt")
-    seconds = [0.0] * TURNS
+    seconds = [0.0] * ROUNDS
     twice = sorted(name for name, times in Counter(all_names).items() if times > 1)
     told = [f"two tests are named {name}, so that CTest takes the labels of both for each; name them apart" for name in twice]
     taken = {}
     for number, line in enumerate(page.read_text(encoding="utf-8").splitlines(), 1):
         if not line or line.startswith("#"):
             continue
-        row = re.fullmatch(r"([0-2]) +(\d+) +(\S+)", line)
+        row = re.fullmatch(r"([0-2]/3|[0-8]/9) +(\d+) +(\S+)", line)
         if not row:
-            told.append(f"{page}:{number}: no row of turn, seconds, name: {line}")
+            told.append(f"{page}:{number}: no row of turn (0/3 to 2/3 or 0/9 to 8/9), seconds, name: {line}")
             continue
         if "(" in row[3]:
             told.append(f"{page}:{number}: CTest's expressions have room for nine groups, which ./check needs: write a row for each name")
             continue
-        seconds[int(row[1])] += float(row[2])
+        turn, every = map(int, row[1].split("/"))
+        for of_round in range(turn, ROUNDS, every):
+            seconds[of_round] += float(row[2])
         # As ./check has it.
         whole = re.compile(rf"(^|/)({row[3]})([/_](inproc|fastdds|cyclonedds|mixed))?( |$)")
         found = [name for name in names if whole.search(name)]
@@ -47,7 +49,7 @@ def main(build):
                 told.append(f"{page}:{number}: {name} stands in line {taken[name]}, too")
             taken[name] = number
     if max(seconds) > UNEVEN * min(seconds):
-        told.append(f"{page}: the turns are uneven: {', '.join(f'{s:.0f} s' for s in seconds)}; move a row to the shortest")
+        told.append(f"{page}: the rounds are uneven: {', '.join(f'{s:.0f} s' for s in seconds)}; move a row to a turn of the shortest")
     print("\n".join(told) or f"{len(taken)} tests take turns: {', '.join(f'{s:.0f} s' for s in seconds)}")
     return 1 if told else 0
 
