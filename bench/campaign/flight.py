@@ -151,8 +151,7 @@ class Flight:
         result = summaries[max(led)[1]]["result"] if led else ""
         return {"seed": self.draw.seed, "draw": self.draw.as_json(), "secured": bool(self.secure), "result": result,
                 "flown_s": round(flown_s, 1), "faults": faults.done, "time_up": flight["time_up"], "exits": flight["exits"],
-                "answers": [{key: value for key, value in answer.items() if key != "answer"} for answer in ground.answers],
-                **verdict}
+                "answers": ground.answers, **verdict}
 
 
 def main() -> None:

@@ -29,8 +29,8 @@ class Ground:
             code, answer = self.ask(words)
             state = answer.get("state", "")
             if code is not None and state:
-                self.answers.append({"verb": verb, "goal": goal, "state": state, "asked_s": asked,
-                                     "answered_s": self.mission_time(), "answer": answer})
+                self.answers.append({"verb": verb, "goal": goal, "state": state, "acknowledged": answer.get("acknowledged", ""),
+                                     "asked_s": asked, "answered_s": self.mission_time()})
             if state in states:
                 return True
             self.over.wait(0.5)

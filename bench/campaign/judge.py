@@ -9,6 +9,7 @@ sys.path.append(str(Path(__file__).resolve().parents[1] / "kill"))
 from effects import doubled_effects  # noqa: E402
 
 RECALLED, FINAL = 6, {0, 3, 4, 5, 6}  # idl/goal.idl, GoalState
+HELD_BY_BOTH = "held by both"  # the second stage of an acknowledgement, as roci tells it
 DEFINED = ("achieved", "partial", "failed")
 # A command that was sent before the recall was acknowledged may begin after it: so long on the wall may it be on its way where
 # nobody has noted when it was sent.
@@ -75,6 +76,35 @@ def flown_after_recall(recalls: list[dict], effects: list[dict], commanded: dict
     return out
 
 
+def lost_goals(answers: list[dict], scenario_goals: list[str], final: dict, others: list[dict]) -> list[str]:
+    """Which goals the final executive's journal lacks and must not: those of the scenario, those that were answered as held by
+    both, and those that were answered as journaled alone if no other journal has them either. What a leader has journaled
+    alone survives if its disk comes back (docs/resilience.md)."""
+    added = {}
+    for answer in answers:
+        if answer["verb"] == "add" and answer["state"] != "rejected":
+            added.setdefault(answer["goal"], set()).add(answer["acknowledged"])
+    lost = [f"goal {goal} is not in the journal" for goal in sorted(set(scenario_goals) - set(final))]
+    for goal in sorted(set(added) - set(final)):
+        if HELD_BY_BOTH in added[goal]:
+            lost.append(f"goal {goal} was held by both and is not in the journal")
+        elif not any(goal in other for other in others):
+            lost.append(f"goal {goal} is in no journal")
+    return lost
+
+
+def lost_recalls(answers: list[dict], final: dict, others: list[dict]) -> list[str]:
+    """Which recalls the final executive's journal contradicts and must not, by the same rule."""
+    out = []
+    for one in answers:
+        goal = one["goal"]
+        if one["verb"] != "recall" or one["state"] != "recalled" or goal not in final or final[goal][0] == RECALLED:
+            continue
+        if one["acknowledged"] == HELD_BY_BOTH or not any(other.get(goal, (None,))[0] == RECALLED for other in others):
+            out.append(f"recall of {goal} was acknowledged, and its state is {final[goal]}")
+    return out
+
+
 def judge(flight: dict, effects: list[dict], final: Path | None, journals: list[Path], speed: float) -> dict:
     """`flight`: exits and summaries by host, answers of the ground, scenario goals, whether it was killed by the watchdog."""
     violations = []
@@ -88,16 +118,17 @@ def judge(flight: dict, effects: list[dict], final: Path | None, journals: list[
     if final is None:
         violations.append("no executive told its end")
     goals = read_goals(final) if final else {}
+    others = [read_goals(journal) for journal in journals if journal != final]
     acknowledged = {answer["goal"] for answer in flight["answers"] if answer["verb"] == "add" and answer["state"] != "rejected"}
     asked = acknowledged | set(flight["scenario_goals"])
-    lost = [f"goal {goal} is not in the journal" for goal in sorted(asked - set(goals))]
+    lost = lost_goals(flight["answers"], flight["scenario_goals"], goals, others)
     late = after_the_end(final, speed) if final else set()
     lost += [f"goal {goal} is still open ({goals[goal][1]})" for goal in sorted(asked & set(goals) - late)
              if goals[goal][0] not in FINAL and not flight["time_up"] and "waiting for the ground" not in goals[goal][1]]
     recalls = [answer for answer in flight["answers"] if answer["verb"] == "recall" and answer["state"] == "recalled"]
-    recalls_lost = [f"recall of {one['goal']} was acknowledged, and its state is {goals[one['goal']]}" for one in recalls
-                    if one["goal"] in goals and goals[one["goal"]][0] != RECALLED]
-    recalls_lost += flown_after_recall(recalls, effects, first_commanded(journals), speed)
+    recalls_lost = lost_recalls(flight["answers"], goals, others)
+    held = [one for one in recalls if one["acknowledged"] == HELD_BY_BOTH or not others]
+    recalls_lost += flown_after_recall(held, effects, first_commanded(journals), speed)
     doubled = doubled_effects(effects)
     violations += lost + recalls_lost + [f"{what} {count} times" for what, count in doubled.items()]
     return {"goals": len(asked), "goals_lost": len(lost), "recalls": len(recalls), "recalls_lost": len(recalls_lost),
