@@ -2,6 +2,7 @@
 #
 #   roci_library(NAME core_pddl HELP "..." SOURCES a.cpp b.cpp DEPENDS core_x PRIVATE_DEPENDS yaml-cpp)
 #   roci_program(NAME roci-plan HELP "..." SOURCES main.cpp DEPENDS planner_temporal_pddl)      installed to bin/, unless NOT_INSTALLED
+#     ROLES service owner: what it does in a run, so what a secure run lets it write and read (services/security/topic_rights.hpp)
 #   roci_plugin (NAME roci_transport_inproc HELP "..." SOURCES ... DEPENDS ...)        installed to lib/rocinante/
 #   roci_test_library(NAME scenario_flight HELP "..." SOURCES flight.cpp DEPENDS ...)   what tests of one folder share
 #   roci_test   (NAME unit_pddl SOURCES parser_test.cpp DEPENDS core_pddl [LABEL contract] [SERIAL | PROCESSORS 2] [OPTIMIZED] [WHOLE])
@@ -64,7 +65,7 @@ _roci_test_headers(roci_test_headers -O0)
 _roci_test_headers(roci_optimized_test_headers -O1)
 
 function(_roci_part target)
-  cmake_parse_arguments(PART "COLD;NOT_INSTALLED;LIBRARY" "NAME;HELP" "SOURCES;DEPENDS;PRIVATE_DEPENDS;ALONE" ${ARGN})
+  cmake_parse_arguments(PART "COLD;NOT_INSTALLED;LIBRARY" "NAME;HELP" "SOURCES;DEPENDS;PRIVATE_DEPENDS;ALONE;ROLES" ${ARGN})
   set_source_files_properties(${PART_ALONE} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
   if(NOT PART_HELP)
     message(FATAL_ERROR "${target}: every part says in HELP what it is for")
@@ -95,9 +96,13 @@ function(roci_library)
 endfunction()
 
 function(roci_program)
-  cmake_parse_arguments(PART "COLD;NOT_INSTALLED" "NAME;HELP" "SOURCES;DEPENDS;PRIVATE_DEPENDS;ALONE" ${ARGN})
+  cmake_parse_arguments(PART "COLD;NOT_INSTALLED" "NAME;HELP" "SOURCES;DEPENDS;PRIVATE_DEPENDS;ALONE;ROLES" ${ARGN})
   add_executable(${PART_NAME} ${PART_SOURCES})
   _roci_part(${PART_NAME} ${ARGN})
+  if(PART_ROLES)
+    list(JOIN PART_ROLES ", " roles)
+    set_property(GLOBAL APPEND_STRING PROPERTY ROCI_ROLES "      {\"${PART_NAME}\", {${roles}}},\n")
+  endif()
   # A command line is read once; optimizing that takes the compiler longer than anything else.
   list(FILTER PART_SOURCES INCLUDE REGEX "main\\.cpp$")
   set_source_files_properties(${PART_SOURCES} PROPERTIES COMPILE_OPTIONS "$<$<CONFIG:Release>:-O1>")
@@ -105,6 +110,29 @@ function(roci_program)
   if(NOT PART_NOT_INSTALLED)
     install(TARGETS ${PART_NAME} RUNTIME DESTINATION bin)
   endif()
+endfunction()
+
+# Writes down what each program does in a run, once all are declared; services_security compiles it.
+function(roci_write_program_roles)
+  get_property(roles GLOBAL PROPERTY ROCI_ROLES)
+  file(CONFIGURE OUTPUT "${PROJECT_BINARY_DIR}/program_roles.cpp" @ONLY CONTENT [[
+// Made by roci_write_program_roles (cmake/Parts.cmake): the ROLES of each roci_program.
+#include <map>
+
+#include "services/security/topic_rights.hpp"
+
+namespace roci::services::security {
+
+std::set<Role> roles_of_program(std::string_view program) {
+  using enum Role;
+  static const std::map<std::string_view, std::set<Role>> roles{
+@roles@  };
+  const auto found = roles.find(program);
+  return found == roles.end() ? std::set<Role>{} : found->second;
+}
+
+}  // namespace roci::services::security
+]])
 endfunction()
 
 function(roci_plugin)

@@ -127,17 +127,6 @@ std::span<const TopicRights> topic_rights() {
   return table;
 }
 
-std::set<Role> roles_of_program(std::string_view program) {
-  if (program == "exec_svc") return {service, executive};
-  if (program == "planner_svc") return {service, planner, resolver};
-  if (program == "pathplan_svc") return {service, path_planner};
-  if (program == "arm_svc") return {service, arm_planner};
-  if (program == "science_svc") return {service, analyst};
-  if (program == "dedicated_svc") return {service, owner, commander};
-  if (program == "sim_svc") return {service, owner, world};
-  return {};
-}
-
 std::vector<std::string> writable(const std::set<Role>& roles, transport::Scope scope) {
   return topics_for(roles, scope, &TopicRights::writers);
 }
