@@ -1,5 +1,6 @@
 #include "services/launch/domain_guard.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <memory>
 #include <set>
@@ -16,9 +17,14 @@ namespace {
 constexpr clock::WallDuration kListen = std::chrono::seconds(3);
 constexpr std::chrono::milliseconds kListenTurn{20};
 
+// Every launcher gives its run a name. What does not print is a damaged sample's, and no run's.
+bool may_be_a_run(const std::string& name) {
+  return !name.empty() && std::ranges::all_of(name, [](char c) { return c >= '!' && c <= '~'; });
+}
+
 void refuse_foreign(const Node& node, int domain) {
   for (const auto& [run, samples] : node.foreign_runs()) {
-    if (run.empty()) continue;  // every launcher gives its run a name: this is nobody's
+    if (!may_be_a_run(run)) continue;
     throw std::invalid_argument("domain " + std::to_string(domain) + " is held by another run, \"" + run +
                                 "\"; choose another one, or leave --domain out for a free one");
   }
@@ -56,7 +62,8 @@ void refuse_held_domain(Node& node, const Options& options) {
   const clock::WallTime end = clock::wall_now() + kListen;
   while (clock::wall_now() < end) {
     node.spin_once(kListenTurn);
-    if (!options.shared_domain) refuse_foreign(node, options.connection.transport.domain);
+    if (!options.shared_domain && !options.continued)
+      refuse_foreign(node, options.connection.transport.domain);
     refuse_twins(*alive, options);
   }
 }

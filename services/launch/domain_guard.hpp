@@ -11,7 +11,9 @@ namespace roci::services::launch {
 bool domain_may_be_held(const Options&);
 
 /// Listens for kListen at most with a node that observes the run. Throws std::invalid_argument if another run is heard
-/// on the domain (unless options say that it may be shared), or one of the services to be started, of this very run.
+/// on the domain (unless options say that it may be shared, or the run is continued: neither obeys the other, and who
+/// writes to the domain must not keep a robot's launcher from coming back), or one of the services to be started, of
+/// this very run.
 void refuse_held_domain(Node&, const Options&);
 
 }  // namespace roci::services::launch

@@ -53,6 +53,20 @@ TEST_P(Resume, WaitsForANetworkThatIsOut) {
   EXPECT_EQ(steps["run"].exit_code, 1) << "ended by us, not for a network";
 }
 
+// Whoever writes to its domain cannot keep a run from going on; one that only begins is told to take another domain.
+TEST_P(Resume, GoesOnBesideAnotherRunOnItsDomain) {
+  const services::process::DomainClaim domain;
+  const Ended ended = run("timeout 100 " ROCI_SOURCE_DIR
+                          "/tests/scenario/resume_beside_another_run.sh " ROCI_BINARY_DIR "/bin " +
+                          std::string(kPlanetary) + " " + GetParam() + " " + std::to_string(domain.id()));
+  auto steps = steps_of(ended.output);
+  EXPECT_EQ(steps["fresh"].exit_code, 2) << ended.output;
+  EXPECT_THAT(steps["fresh"].printed.get<std::string>(),
+              ::testing::HasSubstr("is held by another run, other"))
+      << ended.output;
+  EXPECT_EQ(steps["run"].exit_code, 1) << "ended by us, not refused: " << ended.output;
+}
+
 INSTANTIATE_TEST_SUITE_P(Transports, Resume, ::testing::Values("fastdds", "cyclonedds"),
                          [](const auto& test) { return std::string(test.param); });
 
