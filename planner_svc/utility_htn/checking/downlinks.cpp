@@ -156,8 +156,8 @@ void check_sources(const Question& question, Faults& out) {
 
 }  // namespace
 
-// What has begun goes on with downlinks as long as the network says, whatever limits say by then. What was made longer
-// than that, and what is new, keeps them.
+// What is not committed keeps the limits. A downlink of what has begun that takes more than one of them by itself, as long
+// as the network says, goes on all the same: no sol is better for it than another.
 void check_sessions(const Question& question, Faults& out) {
   constexpr double kNone = std::numeric_limits<double>::infinity();
   const double of_one = parameter(question, "downlink_limit_j", kNone);
@@ -174,7 +174,8 @@ void check_sessions(const Question& question, Faults& out) {
     const auto sol = static_cast<std::int64_t>(temporal::to_seconds(step.start) / sol_s);
     taken[sol] += joules;
     const bool longer = seconds > model::duration_s(task, question.values) + 1e-3;
-    if (step.committed || (!is_new && !longer)) return;
+    const bool goes_on = !is_new && !longer && (more(joules, of_one) || more(joules, of_sol));
+    if (step.committed || goes_on) return;
     judged[sol] = &step;
     if (more(joules, of_one))
       out.push_back("downlink " + name(question, step) + " takes " + number(joules) + " J of the " +
@@ -185,6 +186,7 @@ void check_sessions(const Question& question, Faults& out) {
     for (const Step& step : block.steps) take(step, is_new);
   }
   for (const Step& step : question.rests) take(step, false);
+  for (const Step& step : question.sent) take(step, false);
   for (const auto& [sol, step] : judged)
     if (more(taken[sol], of_sol))
       out.push_back("downlinks of sol " + std::to_string(sol) + ", " + name(question, *step) +

@@ -80,6 +80,8 @@ struct Question {
   /// Lists what runs or has succeeded of chains that were broken off: it counts on timelines, but is no
   /// decomposition any more.
   std::vector<Step> rests{};
+  /// Lists downlinks that are over and stand in the plan no longer: they count for the energy of their sol.
+  std::vector<Step> sent{};
   Downlinks downlinks{};
   /// Says whether the plan tells what goes with which downlink; otherwise that is not checked.
   bool downlinks_told = true;

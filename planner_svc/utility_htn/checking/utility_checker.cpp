@@ -1,6 +1,7 @@
 #include "planner_svc/utility_htn/checking/utility_checker.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 #include "planner_svc/utility_htn/checking/check.hpp"
 #include "planner_svc/utility_htn/checking/version.hpp"
@@ -26,9 +27,14 @@ std::optional<double> newest(const std::vector<Observation>& expected, temporal:
   return out ? std::optional(out->value) : std::nullopt;
 }
 
+bool stands_in(const std::vector<Step>& steps, const Step& one) {
+  return std::ranges::find(steps, one.id, &Step::id) != steps.end();
+}
+
 }  // namespace
 
-std::vector<std::string> faults_of(const model::Network& network, const engine::CheckedPlan& checked) {
+std::vector<std::string> faults_of(const model::Network& network, const engine::CheckedPlan& checked,
+                                   std::span<const Step> sent) {
   const temporal::Time now = checked.request.origin;
   Version version = version_of(network, checked.plan, checked.progress, now);
   if (!version.faults.empty()) return version.faults;
@@ -43,6 +49,11 @@ std::vector<std::string> faults_of(const model::Network& network, const engine::
     question.before = std::move(before.blocks);
   }
   question.rests = std::move(version.rests);
+  std::ranges::copy_if(sent, std::back_inserter(question.sent), [&](const Step& one) {
+    return !stands_in(question.rests, one) && std::ranges::none_of(question.plan, [&](const Block& block) {
+      return stands_in(block.steps, one);
+    });
+  });
   question.downlinks_told = false;
   question.observations = std::move(version.internal);
   question.closed = std::move(version.closed);
@@ -64,7 +75,14 @@ std::vector<std::string> faults_of(const model::Network& network, const engine::
 }
 
 std::vector<std::string> UtilityChecker::faults(const engine::CheckedPlan& checked) const {
-  return faults_of(network(checked.model_file), checked);
+  const model::Network& of = network(checked.model_file);
+  std::vector<Step> sent;
+  {
+    const std::scoped_lock lock(mutex_);
+    sent_.take(of, checked);
+    sent = sent_.steps(of);
+  }
+  return faults_of(of, checked, sent);
 }
 
 const model::Network& UtilityChecker::network(const std::filesystem::path& file) const {

@@ -4,14 +4,17 @@
 #include <filesystem>
 #include <mutex>
 #include <optional>
+#include <span>
 
 #include "planner_svc/engine/checker.hpp"
+#include "planner_svc/utility_htn/checking/sent_downlinks.hpp"
 #include "planner_svc/utility_htn/model/network.hpp"
 
 namespace roci::planner::utility_htn::checking {
 
 /// Reads blocks, times and commitments off a plan's activities, windows and tokens, and has faults() compute everything
-/// anew. Downlinks are not part of a FlexiblePlan and are not looked at here.
+/// anew. Which data go with which downlink is not part of a FlexiblePlan and is not looked at here. Remembers downlinks
+/// that are over, since what they took of their sol counts when their chains have left the plan.
 class UtilityChecker final : public engine::Checker {
  public:
   std::vector<std::string> faults(const engine::CheckedPlan& checked) const override;
@@ -20,11 +23,14 @@ class UtilityChecker final : public engine::Checker {
   const model::Network& network(const std::filesystem::path& file) const;
 
   mutable std::mutex mutex_;
+  mutable SentDownlinks sent_;
   mutable std::filesystem::path file_;
   mutable std::optional<model::Network> network_;  // of that file
 };
 
-/// Checks a version against a network that is read already.
-std::vector<std::string> faults_of(const model::Network& network, const engine::CheckedPlan& checked);
+/// Checks a version against a network that is read already. `sent` are downlinks that are over, whether they stand in
+/// the plan or not.
+std::vector<std::string> faults_of(const model::Network& network, const engine::CheckedPlan& checked,
+                                   std::span<const Step> sent = {});
 
 }  // namespace roci::planner::utility_htn::checking

@@ -21,6 +21,8 @@ struct Name {
   std::uint32_t link = 0;
 };
 
+std::uint64_t step_id(const Name& name) { return (std::uint64_t{name.block} << 32U) | name.link; }
+
 std::optional<Name> name_of(const std::string& id) {
   const std::size_t mark = id.rfind('#');
   const std::size_t dot = id.rfind('.');
@@ -103,8 +105,8 @@ class Reader {
       out_.faults.push_back(activity.id + " is no task of a block");
       return;
     }
-    Step step{(std::uint64_t{name->block} << 32U) | name->link, *task, starts_[activity.start_point],
-              activity.duration_lower, activity.commit == temporal::CommitState::committed};
+    Step step{step_id(*name), *task, starts_[activity.start_point], activity.duration_lower,
+              activity.commit == temporal::CommitState::committed};
     const auto went =
         progress_ == nullptr ? temporal::Progress::const_iterator{} : progress_->find(activity.id);
     const bool known = progress_ != nullptr && went != progress_->end();
@@ -193,6 +195,21 @@ std::uint32_t number_of(const Block& block) {
 Version version_of(const model::Network& network, const FlexiblePlan& plan,
                    const temporal::Progress* progress, Time now) {
   return Reader(network, plan, progress, now).run();
+}
+
+std::vector<Step> downlinks_over(const model::Network& network, const FlexiblePlan& plan,
+                                 const temporal::Progress& progress) {
+  std::vector<Step> out;
+  for (const PlanActivity& activity : plan.activities) {
+    const auto name = name_of(activity.id);
+    const auto went = progress.find(activity.id);
+    if (!name || went == progress.end() || !went->second.started || !went->second.ended) continue;
+    const auto task = index_of(network.tasks, name->task, &model::Task::id);
+    if (!task || !network.tasks[*task].downlinks) continue;
+    out.push_back(
+        {step_id(*name), *task, *went->second.started, *went->second.ended - *went->second.started, true});
+  }
+  return out;
 }
 
 }  // namespace roci::planner::utility_htn::checking

@@ -36,4 +36,8 @@ std::uint32_t number_of(const Block& block);
 Version version_of(const model::Network& network, const temporal::FlexiblePlan& plan,
                    const temporal::Progress* progress, temporal::Time now);
 
+/// Returns the downlinks of a plan that are over, with the times that they really had.
+std::vector<Step> downlinks_over(const model::Network& network, const temporal::FlexiblePlan& plan,
+                                 const temporal::Progress& progress);
+
 }  // namespace roci::planner::utility_htn::checking

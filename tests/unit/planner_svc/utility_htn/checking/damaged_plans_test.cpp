@@ -236,7 +236,9 @@ TEST(DamagedPlans, DownlinksKeepTheirLimitsOfEnergy) {
   mission.network.parameters.pop_back();
   for (const std::uint64_t first : {10U, 14U}) mission.step(first).committed = true;
   const auto of_limits = AnyOf(HasSubstr("that one may"), HasSubstr("that they may"));
-  EXPECT_THAT(faults(15, 35), Not(Contains(of_limits))) << "what has begun goes on as the network says";
+  EXPECT_THAT(faults(15, 35), Not(Contains(of_limits))) << "what has begun goes on where no sol lasts for it";
+  EXPECT_THAT(faults(25, 15), Not(Contains(of_limits))) << "what has begun goes on where no sol lasts for it";
+  EXPECT_THAT(faults(25, 35), Contains(HasSubstr("take 40 J of the 35 J that they may")));
   mission.step(16).duration = seconds(13);
   EXPECT_THAT(faults(25, 60), Contains(HasSubstr("takes 26 J of the 25 J that one may")));
   EXPECT_THAT(faults(30, 45), Contains(HasSubstr("take 46 J of the 45 J that they may")));
