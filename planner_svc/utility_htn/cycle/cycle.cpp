@@ -113,7 +113,7 @@ Report Cycle::run(Time now) {
   const bool reordered = surprised && keep_order(now, report);
   does(Activity::repair, (settings_.repairs && surprised && repair(now, report)) || reordered);
   if (settings_.optimizes) does(Activity::optimize, optimize(now, report));
-  if (settings_.repairs && report.changed) settle(now, report);
+  if (settings_.repairs && (surprised || report.changed)) settle(now, report);
   tell_losses(now, report);
   return report;
 }

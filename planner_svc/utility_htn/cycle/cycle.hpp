@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -165,7 +166,18 @@ class Cycle {
   temporal::Duration duration(model::TaskIndex task) const;
   temporal::Duration length(const Block& block, std::size_t link) const;
   void fit_downlinks();
-  bool keep_limits(Report& report);
+  struct Placement {
+    temporal::Time start{0};
+    temporal::Duration length{0};
+  };
+  std::optional<Placement> soonest(const Block& of, std::size_t link, temporal::timelines::Footprint seen,
+                                   temporal::timelines::Interval starts) const;
+  std::vector<search::PlannedDownlink> others_begun(TaskId but, bool at_least) const;
+  std::optional<temporal::Time> overdraws(const Block& one, const std::set<std::uint32_t>& sols) const;
+  bool defer(std::uint32_t number, temporal::Time from);
+  bool make_way(const std::set<std::uint32_t>& sols, std::set<std::uint32_t>& tried, temporal::Time from,
+                Report& report);
+  bool keep_limits(temporal::Time now, Report& report);
   void settle(temporal::Time now, Report& report);
   double budget() const;
   bool end_with_budget(temporal::Time now, Report& report);

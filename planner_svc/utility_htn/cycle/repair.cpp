@@ -14,7 +14,6 @@ using temporal::Duration, temporal::Time;
 namespace {
 
 constexpr char kNoLongerFits[] = "it no longer fits";
-constexpr int kMostTurns = 4;
 constexpr char kNoTimeLeft[] = "no time is left at which the rest of it fits";
 
 }  // namespace
@@ -74,42 +73,6 @@ bool Cycle::keep_rules(Time now, Report& report) {
     if (breaks) drop(one, "it breaks a rule of the mission", report);
   }
   return before.size() < order.size();
-}
-
-// What has moved to another sol may take more of it than its limit permits: downlinks that were made longer take less,
-// and then what has not begun gives way, the last one first. Returns whether some sol was overdrawn.
-bool Cycle::keep_limits(Report& report) {
-  if (delivery_ == nullptr) return false;
-  auto overdrawn = delivery_->overdrawn_sols(data().downlinks, past_.values);
-  if (overdrawn.empty()) return false;
-  fit_downlinks();
-  while (!(overdrawn = delivery_->overdrawn_sols(data().downlinks, past_.values)).empty()) {
-    const Block* last = nullptr;
-    for (const Block& one : blocks_) {
-      const auto overdraws = [&](const Link& each) {
-        return network_.tasks[each.task].downlinks &&
-               overdrawn.contains(delivery_->sol_of(each.start, past_.values));
-      };
-      if (!one.begun() && std::ranges::any_of(one.links, overdraws) &&
-          (last == nullptr || one.links.front().start > last->links.front().start))
-        last = &one;
-    }
-    if (last == nullptr) break;
-    drop(*last, "downlinks of its sol take more than its limit", report);
-  }
-  return true;
-}
-
-// Downlinks of other lengths, and what gave way to a limit, may leave the rest in conflict: then that is repaired, and
-// may overdraw a sol in its turn.
-void Cycle::settle(Time now, Report& report) {
-  bool repaired = false;
-  for (int turn = 0; turn < kMostTurns && keep_limits(report); ++turn) {
-    repaired |= keep_order(now, report);
-    repaired |= repair(now, report);
-  }
-  if (repaired && std::ranges::find(report.done, Activity::repair) == report.done.end())
-    report.done.insert(std::ranges::upper_bound(report.done, Activity::repair), Activity::repair);
 }
 
 // Conflicts behind the commit window are mended by moving what has begun to later, and taking out what has not; the
@@ -243,19 +206,18 @@ bool Cycle::lower(Block& late, Time from) {
     if (each.stage != Stage::planned) continue;
     auto seen = footprint(late, i);
     seen.duration = length(late, i);
-    std::optional<Time> start;
+    std::optional<Placement> found;
     if (fits) {
       const Time before = i == 0 ? from : late.links[i - 1].end;
+      const Time earliest = std::max(from, before + (i == 0 ? Duration{0} : gaps[i].shortest_gap));
       const Time latest = i == 0 ? temporal::no_bound : temporal::plus(before, gaps[i].longest_gap);
-      const Time latest_end = std::min(plan_end_, network_.tasks[each.task].closes);
-      start = timelines_.first_valid_start(
-          seen, {std::max(from, before + (i == 0 ? Duration{0} : gaps[i].shortest_gap)),
-                 std::min(latest, temporal::plus(latest_end, -seen.duration))});
+      found = soonest(late, i, seen, {earliest, latest});
     }
-    fits = start.has_value();
-    if (start) {
-      each.planned = each.start = *start;
-      each.end = *start + seen.duration;
+    fits = found.has_value();
+    if (found) {
+      each.planned = each.start = found->start;
+      each.end = found->start + found->length;
+      seen.duration = found->length;
     }
     timelines_.place(task_id(late.number, i), seen, each.start);
   }

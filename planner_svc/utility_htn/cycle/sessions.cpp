@@ -51,17 +51,30 @@ Duration Sessions::length(const std::vector<Block>& blocks, const Block& of, std
   const Duration least = temporal::seconds(model::duration_s(network_.tasks[at.task], values));
   if (!of.begun()) return least;
   std::set<model::TaskIndex> requests{chains_.chains[of.chain].task};
-  const TaskId id = task_id(of.number, link);
-  if (id == next_) {
+  if (task_id(of.number, link) == next_) {
     requests.merge(delivery.requests_with_data());
     for (const Block& other : blocks)
       if (other.number != of.number) requests.erase(chains_.chains[other.chain].task);
   }
   const Duration takes = delivery.transmission(requests, values);
   if (takes <= least) return least;
+  return std::max(least, std::min(takes, longest(blocks, of, link, at.start, delivery, values)));
+}
+
+Duration Sessions::of_its_own(const Block& of, std::size_t link, const delivery::Delivery& delivery,
+                              const model::Values& values) const {
+  const Link& at = of.links[link];
+  if (at.told > Duration{0}) return at.told;
+  const Duration least = temporal::seconds(model::duration_s(network_.tasks[at.task], values));
+  return of.begun() ? std::max(least, delivery.transmission({chains_.chains[of.chain].task}, values)) : least;
+}
+
+Duration Sessions::longest(const std::vector<Block>& blocks, const Block& of, std::size_t link, Time start,
+                           const delivery::Delivery& delivery, const model::Values& values) const {
   std::vector<search::PlannedDownlink> others = data_of(blocks, network_, chains_, values).downlinks;
+  const TaskId id = task_id(of.number, link);
   std::erase_if(others, [id](const search::PlannedDownlink& one) { return one.id == id; });
-  return std::max(least, std::min(takes, delivery.longest(at.task, at.start, others, values)));
+  return delivery.longest(of.links[link].task, start, others, values);
 }
 
 }  // namespace roci::planner::utility_htn::cycle

@@ -18,6 +18,9 @@ constexpr downlink::Effort kOfOneQuestion{.most_nodes = 50, .most_variables = 50
 // The Downlink Manager counts in whole steps of a millionth.
 constexpr double kHighestScore = 1e6;
 
+// Sums of the same joules in another order differ in their last digits.
+bool exceeds(double joules, double limit) { return joules > limit * (1 + 1e-9) + 1e-9; }
+
 RankVector sane(const RankVector& utility) {
   std::vector<double> scores(utility.scores().begin(), utility.scores().end());
   for (double& score : scores) score = std::isfinite(score) ? std::clamp(score, 0.0, kHighestScore) : 0.0;
@@ -139,18 +142,44 @@ std::set<model::TaskIndex> Delivery::requests_with_data() const {
   return out;
 }
 
-temporal::Duration Delivery::longest(model::TaskIndex task, Time start,
-                                     std::span<const search::PlannedDownlink> others,
-                                     const model::Values& values) const {
+// Returns the joules that a downlink that starts then may take.
+double Delivery::left_for(Time start, std::span<const search::PlannedDownlink> others,
+                          const model::Values& values) const {
   const std::uint32_t sol = rules_.sol_of(start, values);
   double left = rules_.sol_limit_j(values) - spent_in(sol);
   for (const search::PlannedDownlink& other : others)
     if (const downlink::Window window = rules_.window(other, values); window.sol == sol)
       left -= Rules::joules(window);
-  const double joules = std::max(0.0, std::min(left, rules_.downlink_limit_j(values)));
+  return std::max(0.0, std::min(left, rules_.downlink_limit_j(values)));
+}
+
+temporal::Duration Delivery::longest(model::TaskIndex task, Time start,
+                                     std::span<const search::PlannedDownlink> others,
+                                     const model::Values& values) const {
+  return lasting(task, left_for(start, others, values), values);
+}
+
+temporal::Duration Delivery::longest_alone(model::TaskIndex task, const model::Values& values) const {
+  return lasting(task, std::min(rules_.sol_limit_j(values), rules_.downlink_limit_j(values)), values);
+}
+
+temporal::Duration Delivery::lasting(model::TaskIndex task, double joules,
+                                     const model::Values& values) const {
   const double power = model::draw(network_, network_.tasks[task], values);
   if (power <= 0 || !std::isfinite(joules)) return temporal::no_bound;
   return temporal::seconds(std::floor(joules / power));
+}
+
+bool Delivery::permits(model::TaskIndex task, Time start, temporal::Duration length,
+                       std::span<const search::PlannedDownlink> others, const model::Values& values) const {
+  return !exceeds(Rules::joules(rules_.window({task, start, start + length}, values)),
+                  left_for(start, others, values));
+}
+
+bool Delivery::permits_alone(model::TaskIndex task, temporal::Duration length,
+                             const model::Values& values) const {
+  return !exceeds(Rules::joules(rules_.window({task, Time{0}, length}, values)),
+                  std::min(rules_.sol_limit_j(values), rules_.downlink_limit_j(values)));
 }
 
 std::set<std::uint32_t> Delivery::overdrawn_sols(std::span<const search::PlannedDownlink> downlinks,
@@ -164,7 +193,7 @@ std::set<std::uint32_t> Delivery::overdrawn_sols(std::span<const search::Planned
     joules[window.sol] += Rules::joules(window);
   }
   for (const auto& [sol, sum] : joules)
-    if (sum + spent_in(sol) > limit) out.insert(sol);
+    if (exceeds(sum + spent_in(sol), limit)) out.insert(sol);
   return out;
 }
 

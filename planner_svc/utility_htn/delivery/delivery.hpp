@@ -126,11 +126,23 @@ class Delivery {
   temporal::Duration longest(model::TaskIndex task, temporal::Time start,
                              std::span<const search::PlannedDownlink> others,
                              const model::Values& values) const;
+  /// Returns whether a downlink that starts then may last so long by the limit of one downlink and, beside all others,
+  /// by that of its sol.
+  bool permits(model::TaskIndex task, temporal::Time start, temporal::Duration length,
+               std::span<const search::PlannedDownlink> others, const model::Values& values) const;
+  /// Returns whether a downlink may last so long where nothing else is sent: otherwise no sol has energy for it.
+  bool permits_alone(model::TaskIndex task, temporal::Duration length, const model::Values& values) const;
+  /// Returns how long a downlink may last by its limit and that of a sol in which nothing else is sent.
+  temporal::Duration longest_alone(model::TaskIndex task, const model::Values& values) const;
   /// Returns the sols of which these downlinks and what was executed take more than the limit.
   std::set<std::uint32_t> overdrawn_sols(std::span<const search::PlannedDownlink> downlinks,
                                          const model::Values& values) const;
   std::uint32_t sol_of(temporal::Time time, const model::Values& values) const {
     return rules_.sol_of(time, values);
+  }
+  /// Returns when the sol in which this time lies ends.
+  temporal::Time end_of_sol(temporal::Time time, const model::Values& values) const {
+    return rules_.end_of_sol(sol_of(time, values), values);
   }
   /// Returns what was received on Earth with its last byte: executed utility, of which nothing is predicted.
   temporal::RankVector received() const;
@@ -155,6 +167,9 @@ class Delivery {
   std::vector<std::string> sent_by(const search::PlannedDownlink& downlink, const Question& question,
                                    const downlink::Window& left) const;
   double spent_in(std::uint32_t sol) const;
+  double left_for(temporal::Time start, std::span<const search::PlannedDownlink> others,
+                  const model::Values& values) const;
+  temporal::Duration lasting(model::TaskIndex task, double joules, const model::Values& values) const;
   bool keeps_limits(const search::PlannedData& planned, const model::Values& values) const;
 
   const model::Network& network_;

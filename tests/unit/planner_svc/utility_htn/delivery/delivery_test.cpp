@@ -17,7 +17,8 @@ namespace {
 using namespace std::chrono_literals;
 using model::Tier;
 using temporal::Time;
-using ::testing::Contains, ::testing::ElementsAre, ::testing::IsEmpty, ::testing::Not, ::testing::SizeIs;
+using ::testing::Contains, ::testing::ElementsAre, ::testing::IsEmpty, ::testing::Not, ::testing::Pair,
+    ::testing::SizeIs;
 using testing::kBattery, testing::task_named, testing::toy_network;
 
 // The toy lander with a radio: `send_sample` and `send_view` take 20 s at 5 W, and 10 bytes go in each second.
@@ -382,6 +383,82 @@ TEST_F(LongSessions, GiveWayWhereTheirSolIsOverdrawn) {
     EXPECT_GT(joules[1], 0) << "the late one";
     for (const auto& [sol, sum] : joules) EXPECT_LE(sum, 150) << "sol " << sol;
   }
+}
+
+// `sample` and `view` have begun, and each sends for 20 s at 5 W: the one at 155 s, the other from 55 s on.
+class FullSols : public DeliveryTest {
+ protected:
+  void begin(double sol_limit_j) {
+    add_parameter("sol_limit_j", sol_limit_j);
+    add_parameter("sol_s", 200);
+    task("idle").impacts.clear();
+    task("image").impacts.pop_back();  // no arm, so both begin at once
+    ASSERT_THAT(planned(), ElementsAre("idle", "sample", "view"));
+    for (const cycle::Block& one : cycle_->blocks())
+      for (std::size_t i = 0; i + 1 < one.links.size() && one.links[i].start < 10s; ++i)
+        cycle_->begun(cycle::task_id(one.number, i), one.links[i].start);
+    cycle_->run(10s);
+    for (const cycle::Block& one : cycle_->blocks()) ASSERT_TRUE(one.begun());
+  }
+  // A downlink that is over has taken 100 J of the first sol.
+  void something_was_sent() {
+    delivery_->executed(1, task_named(network_, "send_view"), 0s, 20s, cycle_->past().values);
+    cycle_->doubt();
+  }
+  std::map<std::string, std::uint32_t> sols() const {
+    std::map<std::string, std::uint32_t> out;
+    for (const search::PlannedDownlink& one : cycle_->data().downlinks)
+      out[network_.tasks[one.task].id] = delivery_->sol_of(one.start, cycle_->past().values);
+    return out;
+  }
+  void expect_limits_kept() const {
+    EXPECT_THAT(delivery_->overdrawn_sols(cycle_->data().downlinks, cycle_->past().values), IsEmpty());
+    EXPECT_THAT(cycle_->timelines().conflicts(cycle_->timelines().past(), temporal::no_bound), IsEmpty());
+  }
+};
+
+// Nothing that has not begun could give way, and the second sol lasts for one downlink alone.
+TEST_F(FullSols, WhatIsLateGoesToASolThatLastsForIt) {
+  begin(150);
+  ASSERT_THAT(sols(), ElementsAre(Pair("send_sample", 0), Pair("send_view", 1)));
+  const cycle::Block& sample =
+      *std::ranges::find(cycle_->blocks(), task_named(network_, "sample"),
+                         [&](const auto& one) { return chains_.chains[one.chain].task; });
+  cycle_->tried_again(cycle::task_id(sample.number, 0), 90s);  // it digs until 190 s, and images until 240 s
+  cycle_->run(90s);
+  EXPECT_THAT(sols(), ElementsAre(Pair("send_sample", 2), Pair("send_view", 1)));
+  expect_limits_kept();
+}
+
+TEST_F(FullSols, WhatHasBegunGoesToALaterOneWhereItsOwnIsOverdrawn) {
+  begin(150);
+  something_was_sent();
+  cycle_->run(20s);
+  EXPECT_THAT(sols(), ElementsAre(Pair("send_sample", 2), Pair("send_view", 1)));
+  expect_limits_kept();
+}
+
+TEST_F(FullSols, WhatHasNoLaterOneIsBrokenOffWhereItIsWorthLeast) {
+  network_.cycle.plan_end = 200s;
+  task("idle").duration = {100};
+  begin(250);
+  ASSERT_THAT(sols(), ElementsAre(Pair("send_sample", 0), Pair("send_view", 0)));
+  something_was_sent();
+  const cycle::Report report = cycle_->run(20s);
+  EXPECT_THAT(sols(), ElementsAre(Pair("send_sample", 0)));
+  EXPECT_THAT(report.notes,
+              Contains(::testing::HasSubstr("view is broken off: downlinks of its sol take more")));
+  expect_limits_kept();
+}
+
+// The network makes a downlink longer than any sol lasts for: what has begun goes on all the same.
+TEST_F(FullSols, WhatNoSolLastsForGoesOnAsTheNetworkSays) {
+  begin(250);
+  const auto limit = static_cast<model::ParameterIndex>(network_.parameters.size() - 2);
+  ASSERT_EQ(network_.parameters[limit].name, "sol_limit_j");
+  cycle_->set_value(limit, 99);
+  cycle_->run(20s);
+  EXPECT_THAT(sols(), ElementsAre(Pair("send_sample", 0), Pair("send_view", 0)));
 }
 
 TEST_F(DeliveryTest, TheLimitOfADownlinkIsNeverExceeded) {
