@@ -35,7 +35,7 @@ std::vector<search::PlannedDownlink> Cycle::others_begun(TaskId but, bool at_lea
 }
 
 // Returns the soonest place of a link within these starts. A downlink goes to the first sol that has energy for it
-// beside the downlinks of what has begun, and is as long as the data of its chain take and that energy lasts; only where
+// beside the downlinks of what has begun, and is as long as its data take and the energy of that sol lasts; only where
 // there is no such place those that were made longer have to be shorter. A downlink that takes more than a limit by
 // itself goes anywhere, since no sol is better than another.
 std::optional<Cycle::Placement> Cycle::soonest(const Block& of, std::size_t link,
@@ -54,20 +54,25 @@ std::optional<Cycle::Placement> Cycle::soonest(const Block& of, std::size_t link
     const std::optional<Time> start = first(starts.earliest);
     return start ? std::optional(Placement{*start, seen.duration}) : std::nullopt;
   }
-  const Duration wanted = std::max(least, std::min(sessions_.of_its_own(of, link, *delivery_, past_.values),
-                                                   delivery_->longest_alone(task, past_.values)));
-  const auto permitted = [&](Time start) {
-    return sessions_.longest(blocks_, of, link, start, *delivery_, past_.values);
-  };
+  const Duration wanted = sessions_.wanted(blocks_, of, link, *delivery_, past_.values);
   for (const bool at_least : {false, true}) {
     const std::vector<search::PlannedDownlink> others = others_begun(task_id(of.number, link), at_least);
-    for (const Duration length : {wanted, least}) {
-      seen.duration = length;
-      for (auto start = first(starts.earliest); start;
-           start = first(delivery_->end_of_sol(*start, past_.values)))
-        if (delivery_->permits(task, *start, least, others, past_.values))
-          return Placement{*start, std::max(least, std::min(length, permitted(*start)))};
+    std::optional<Placement> shortest;
+    seen.duration = least;
+    for (auto start = first(starts.earliest); start;) {
+      const Time end_of_sol = delivery_->end_of_sol(*start, past_.values);
+      seen.duration = least;
+      if (delivery_->permits(task, *start, least, others, past_.values)) {
+        const Duration permitted = sessions_.longest(blocks_, of, link, *start, *delivery_, past_.values);
+        seen.duration = std::max(least, std::min(wanted, permitted));
+        if (!shortest) shortest = Placement{*start, least};
+        start = first(*start);
+        if (start && *start < end_of_sol) return Placement{*start, seen.duration};
+      } else {
+        start = first(end_of_sol);
+      }
     }
+    if (shortest) return shortest;
   }
   return std::nullopt;
 }

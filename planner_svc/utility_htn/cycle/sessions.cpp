@@ -44,7 +44,7 @@ void Sessions::look(const std::vector<Block>& blocks, const delivery::Delivery& 
     }
 }
 
-Duration Sessions::length(const std::vector<Block>& blocks, const Block& of, std::size_t link,
+Duration Sessions::wanted(const std::vector<Block>& blocks, const Block& of, std::size_t link,
                           const delivery::Delivery& delivery, const model::Values& values) const {
   const Link& at = of.links[link];
   if (at.told > Duration{0}) return at.told;
@@ -56,17 +56,16 @@ Duration Sessions::length(const std::vector<Block>& blocks, const Block& of, std
     for (const Block& other : blocks)
       if (other.number != of.number) requests.erase(chains_.chains[other.chain].task);
   }
-  const Duration takes = delivery.transmission(requests, values);
-  if (takes <= least) return least;
-  return std::max(least, std::min(takes, longest(blocks, of, link, at.start, delivery, values)));
+  return std::max(least, delivery.transmission(requests, values));
 }
 
-Duration Sessions::of_its_own(const Block& of, std::size_t link, const delivery::Delivery& delivery,
-                              const model::Values& values) const {
+Duration Sessions::length(const std::vector<Block>& blocks, const Block& of, std::size_t link,
+                          const delivery::Delivery& delivery, const model::Values& values) const {
   const Link& at = of.links[link];
-  if (at.told > Duration{0}) return at.told;
+  const Duration takes = wanted(blocks, of, link, delivery, values);
   const Duration least = temporal::seconds(model::duration_s(network_.tasks[at.task], values));
-  return of.begun() ? std::max(least, delivery.transmission({chains_.chains[of.chain].task}, values)) : least;
+  if (at.told > Duration{0} || takes <= least) return takes;
+  return std::max(least, std::min(takes, longest(blocks, of, link, at.start, delivery, values)));
 }
 
 Duration Sessions::longest(const std::vector<Block>& blocks, const Block& of, std::size_t link, Time start,

@@ -28,9 +28,9 @@ class Sessions {
   /// the other downlinks in `blocks`. It is never less than the network says, which holds for what has not begun.
   temporal::Duration length(const std::vector<Block>& blocks, const Block& of, std::size_t link,
                             const delivery::Delivery& delivery, const model::Values& values) const;
-  /// Returns the same for the data of its own request alone, whatever limits say.
-  temporal::Duration of_its_own(const Block& of, std::size_t link, const delivery::Delivery& delivery,
-                                const model::Values& values) const;
+  /// Returns the same whatever limits say.
+  temporal::Duration wanted(const std::vector<Block>& blocks, const Block& of, std::size_t link,
+                            const delivery::Delivery& delivery, const model::Values& values) const;
   /// Returns how long it may take at most if it starts then, by the same limits.
   temporal::Duration longest(const std::vector<Block>& blocks, const Block& of, std::size_t link,
                              temporal::Time start, const delivery::Delivery& delivery,

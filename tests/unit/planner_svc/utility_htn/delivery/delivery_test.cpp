@@ -385,6 +385,28 @@ TEST_F(LongSessions, GiveWayWhereTheirSolIsOverdrawn) {
   }
 }
 
+// A session that was made shorter when it is moved would be made longer again in the next cycle, and move again.
+TEST_F(LongSessions, StayAsLongWhereTheyAreMoved) {
+  task("idle").impacts.clear();
+  begin();
+  cycle_->withdraw(task_named(network_, "view"));
+  Existing orphan = stored("of a chain that is gone", Tier::mandatory, 300);
+  orphan.request = static_cast<model::TaskIndex>(network_.tasks.size());
+  delivery_->hear(orphan);
+  cycle_->doubt();
+  cycle_->run(20s);
+  ASSERT_EQ(session(), 30s);
+  const cycle::Block& sample =
+      *std::ranges::find(cycle_->blocks(), task_named(network_, "sample"),
+                         [&](const auto& one) { return chains_.chains[one.chain].task; });
+  const auto dig = cycle::task_id(sample.number, 0);
+  cycle_->begun(dig, sample.links.front().start);
+  cycle_->tried_again(dig, 90s);
+  cycle_->run(90s);
+  EXPECT_EQ(session(), 30s);
+  EXPECT_FALSE(cycle_->run(100s).changed);
+}
+
 // `sample` and `view` have begun, and each sends for 20 s at 5 W: the one at 155 s, the other from 55 s on.
 class FullSols : public DeliveryTest {
  protected:
