@@ -156,8 +156,8 @@ void check_sources(const Question& question, Faults& out) {
 
 }  // namespace
 
-// What is not committed keeps the limits. A downlink of what has begun that takes more than one of them by itself goes on
-// as long as the network says: no sol is better for it than another.
+// What is not committed keeps the limits. A downlink of what has begun that takes more than one of them by itself goes
+// on as long as the network says: no sol is better for it than another.
 void check_sessions(const Question& question, Faults& out) {
   constexpr double kNone = std::numeric_limits<double>::infinity();
   const double of_one = parameter(question, "downlink_limit_j", kNone);

@@ -1,4 +1,4 @@
-// The energy that a sol has for downlinks (R111) is kept by what moves: a downlink is placed in a sol that lasts for it,
+// What moves keeps to the energy that a sol has for downlinks (R111): a downlink is placed in a sol that lasts for it,
 // and where a sol is overdrawn all the same, something gives way.
 #include <algorithm>
 #include <utility>
@@ -143,8 +143,8 @@ bool Cycle::make_way(const std::set<std::uint32_t>& sols, std::set<std::uint32_t
 }
 
 // What has moved to another sol, or takes longer than foreseen, may take more of a sol than its limit permits:
-// downlinks that were made longer take less, and then something gives way. Returns whether anything was changed: what is
-// committed may overdraw its sol by itself.
+// downlinks that were made longer take less, and then something gives way. Returns whether anything was changed: what
+// is committed may overdraw its sol by itself.
 bool Cycle::keep_limits(Time now, Report& report) {
   if (delivery_ == nullptr) return false;
   const auto overdrawn = [&] { return delivery_->overdrawn_sols(data().downlinks, past_.values); };

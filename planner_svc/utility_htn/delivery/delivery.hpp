@@ -126,8 +126,8 @@ class Delivery {
   temporal::Duration longest(model::TaskIndex task, temporal::Time start,
                              std::span<const search::PlannedDownlink> others,
                              const model::Values& values) const;
-  /// Returns whether a downlink that starts then may last so long by the limit of one downlink and, beside all others,
-  /// by that of its sol.
+  /// Returns whether a downlink that starts then may last so long by the limit of one downlink and, beside all
+  /// others, by that of its sol.
   bool permits(model::TaskIndex task, temporal::Time start, temporal::Duration length,
                std::span<const search::PlannedDownlink> others, const model::Values& values) const;
   /// Returns whether a downlink may last so long where nothing else is sent: otherwise no sol has energy for it.
