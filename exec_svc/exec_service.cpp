@@ -256,15 +256,14 @@ class ExecService final : public services::Service {
 
   void take(const v1::Observation& observation) {
     if (observation.header().sender() == node_.options().name) return;  // a value that the ground has set
+    if (!intake_.admits_timeline(observation.timeline())) return;
     if (!sources_.admit(observation.timeline(), observation.header().sender()))
       return strangers_.tell("timeline.contested", observation.header().sender() + " tells of " +
                                                        observation.timeline() + ", which " +
                                                        sources_.source(observation.timeline()) +
                                                        " observes; it is not believed");
     try {
-      executive::Observation value = from_wire(observation);
-      if (!intake_.admits(value)) return;
-      inputs_.observations.push_back(std::move(value));
+      inputs_.observations.push_back(from_wire(observation));
     } catch (const services::wire::WireError& error) {
       intake_.tell(
           {Severity::warning, "observation.malformed", observation.timeline() + ": " + error.what()});

@@ -7,7 +7,6 @@
 
 namespace roci::exec {
 
-using executive::Observation;
 using goals::GoalRequest;
 using goals::GoalState;
 using reactor::Event;
@@ -66,9 +65,9 @@ bool Intake::is_of_mission(const std::string& timeline) const {
          });
 }
 
-bool Intake::admits(const Observation& observation) {
-  std::set<std::string>& known = is_of_mission(observation.timeline) ? timelines_ : foreign_timelines_;
-  return enter(known, observation.timeline, kTimelines, "timeline.no_room", "timeline");
+bool Intake::admits_timeline(const std::string& timeline) {
+  std::set<std::string>& known = is_of_mission(timeline) ? timelines_ : foreign_timelines_;
+  return enter(known, timeline, kTimelines, "timeline.no_room", "timeline");
 }
 
 bool Intake::admits(const ModelVersion& model) {

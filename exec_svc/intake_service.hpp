@@ -29,7 +29,7 @@ class Intake {
   bool admits(const goals::GoalRequest&, const std::vector<goals::GoalRequest>& waiting, temporal::Time now);
   bool admits(const orders::Order&);
   bool admits(const reactor::GivenAnswer&);
-  bool admits(const executive::Observation&);
+  bool admits_timeline(const std::string& timeline);
   bool admits(const reactor::ModelVersion&);
 
   /// Reports an event about a bad sample, of each code the first one, the tenth, the hundredth and so on.

@@ -145,9 +145,17 @@ TEST(ExecService, WhatFloodsItsTablesIsRefusedAndTold) {
     order.id(std::string(kNameBytes + 1, 'x'));
     orders.write(order);
   });
+  services::Node& planner = seat.run().node("planner_svc");
+  const auto other_source = services::advertise(planner, services::topics::observation);
+  planner.at(14s, [&] {
+    v1::Observation observation;
+    observation.timeline("x" + std::to_string(kTimelines + 5));
+    other_source.write(observation);
+  });
   seat.send(20s, photo_goal("second"));
   seat.run_until(300s);
   EXPECT_THAT(seat.events, Contains("timeline.no_room").Times(2)) << "the first and the tenth";
+  EXPECT_THAT(seat.events, ::testing::Not(Contains("timeline.contested"))) << "what is not taken has no source";
   EXPECT_THAT(seat.events, Contains("goal.no_room"));
   EXPECT_THAT(seat.events, Contains("order.no_room").Times(1));
   EXPECT_LE(seat.journal().goals().size(), kRejectedGoals + 2);
