@@ -66,7 +66,8 @@ void DecisionLink::tell(const DecisionRecord& decision) const {
   out.decision_state(static_cast<v1::DecisionState>(status.state));
   out.chosen(status.chosen);
   out.answered_by(status.answered_by);
-  decisions_.write(std::move(out));
+  decisions_.write(out);
+  if (status.state != executive::DecisionState::open) decisions_.dispose(out);
 }
 
 void DecisionLink::tell(const AnswerReceipt& receipt) const {

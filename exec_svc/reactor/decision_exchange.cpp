@@ -1,5 +1,7 @@
 #include "exec_svc/reactor/decision_exchange.hpp"
 
+#include <algorithm>
+#include <cstdint>
 #include <utility>
 
 namespace roci::exec::reactor {
@@ -73,6 +75,19 @@ void DecisionExchange::note_changes(std::vector<DecisionRecord>& changes) {
     status.answered_by = change.status.answered_by;
     change = known->second;
   }
+  forget_oldest_closed();
+}
+
+// The order of forgetting follows from the records alone, so that a restart from the journal forgets the same ones.
+void DecisionExchange::forget_oldest_closed() {
+  if (decisions_.size() <= kClosedDecisions) return;
+  std::vector<std::pair<std::uint32_t, std::string>> closed;  // by the plan that asked
+  for (const auto& [id, decision] : decisions_)
+    if (decision.status.state != DecisionState::open) closed.emplace_back(decision.plan_version, id);
+  if (closed.size() <= kClosedDecisions) return;
+  std::ranges::sort(closed);
+  closed.resize(closed.size() - kClosedDecisions);
+  for (const auto& [version, id] : closed) decisions_.erase(id);
 }
 
 std::vector<AnswerReceipt> DecisionExchange::receipts() const {

@@ -1,5 +1,6 @@
 // Decisions of the running plan (R131): each resolver, answered on time, late, with what is unknown, twice; and
 // what an answer does to the plan.
+#include "exec_svc/reactor/decision_exchange.hpp"
 #include "tests/unit/exec_svc/executive/plan_builder.hpp"
 #include "tests/unit/exec_svc/reactor_fixture.hpp"
 
@@ -24,8 +25,8 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-GivenAnswer given(const std::string& issuer, const std::string& id, std::uint64_t number, const std::string& decision,
-                  const std::string& choice) {
+GivenAnswer given(const std::string& issuer, const std::string& id, std::uint64_t number,
+                  const std::string& decision, const std::string& choice) {
   GivenAnswer answer;
   answer.key.issuer = issuer;
   answer.key.id = id;
@@ -323,14 +324,40 @@ TEST_F(ReactorTest, ADecisionInAPlannersPlanIsAskedForUnderTheIdsOfThePlan) {
     out.plan.decisions.push_back(way);
     return out;
   };
-  other_events.emplace(seconds(60), [this] {
-    pending.answers.push_back(given("ground", "1", 1, "p1.way", "only-asecond"));
-  });
+  other_events.emplace(
+      seconds(60), [this] { pending.answers.push_back(given("ground", "1", 1, "p1.way", "only-asecond")); });
   run(90, robot_and({photo("first"), photo("second")}));
   ASSERT_EQ(receipts.size(), 1U);
   EXPECT_EQ(receipts[0].result.outcome, AnswerOutcome::taken) << receipts[0].result.reason;
   ASSERT_FALSE(commands.empty());
   EXPECT_EQ(commands.front().arguments.front().value, "image-second");
+}
+
+// A mission of months asks again with each plan.
+TEST(DecisionExchange, KeepsWhatIsOpenAndTheNewestOfWhatIsClosed) {
+  constexpr std::uint32_t kAsked = 3'000;
+  reactor::DecisionExchange exchange;
+  const auto change = [&exchange](std::uint32_t plan, DecisionState state) {
+    reactor::DecisionRecord record;
+    record.status.decision = "p" + std::to_string(plan) + ".route";
+    record.status.resolver = "ground";
+    record.status.state = state;
+    record.plan_version = plan;
+    std::vector<reactor::DecisionRecord> changes{record};
+    exchange.note_changes(changes);
+  };
+  change(1, DecisionState::open);
+  for (std::uint32_t plan = 2; plan <= kAsked; ++plan) {
+    change(plan, DecisionState::open);
+    change(plan, DecisionState::answered);
+  }
+  const auto& kept = exchange.decisions();
+  EXPECT_EQ(kept.size(), reactor::DecisionExchange::kClosedDecisions + 1);
+  EXPECT_TRUE(kept.contains("p1.route")) << "it is open";
+  EXPECT_FALSE(kept.contains("p2.route"));
+  EXPECT_FALSE(kept.contains("p2000.route"));
+  EXPECT_TRUE(kept.contains("p2001.route"));
+  EXPECT_TRUE(kept.contains("p3000.route"));
 }
 
 }  // namespace
