@@ -122,7 +122,7 @@ class SimService final : public services::Service, private owner::Driver {
   void tell(const world::Outputs& outputs) {
     for (const world::Output& output : outputs) {
       std::visit(Match{[this](const TaskReport& task) { report(task); },
-                       [this](const Observed& observed) { observations_.write(wire::to_wire(observed)); },
+                       [this](const Observed& observed) { publish(observed); },
                        [this](const Image& image) { publish(image); },
                        [this](const Product& product) { publish(product); },
                        [this](const RockSeen& rock) { warn_of(rock); },
@@ -142,6 +142,15 @@ class SimService final : public services::Service, private owner::Driver {
       wake_.reset();
       tell(world_.advance(node_.now()));
     });
+  }
+
+  void publish(const Observed& observed) {
+    v1::Observation sample = wire::to_wire(observed);
+    if (observed.ended) {
+      observations_.dispose(sample);
+    } else {
+      observations_.write(std::move(sample));
+    }
   }
 
   void publish(const Image& image) {

@@ -60,7 +60,7 @@ Ending Camera::finish(Surroundings& around) {
   last_bytes_ = static_cast<double>(image.bytes);
   around.effects.push_back({"image", image.id});
   around.out.push_back(image);
-  around.body.images.insert_or_assign(image.id, std::move(image));
+  around.body.images.add(std::move(image));
   shot_.reset();
   return std::nullopt;
 }

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <utility>
-#include <vector>
 
 namespace roci::sim::components {
 
@@ -20,8 +20,8 @@ State Radio::state() const { return busy() ? State{"sending", {}} : State{"idle"
 
 Ending Radio::begin(const world::Task& task, Time now, Surroundings& around) {
   const std::string& id = task.arguments.at("image");
-  const auto image = around.body.images.find(id);
-  if (image == around.body.images.end()) {
+  const world::Image* const image = around.body.images.find(id);
+  if (image == nullptr) {
     return Failure{"no-image", "no image '" + id + "' is on board; take it first"};
   }
   const auto& windows = around.environment.windows;
@@ -31,7 +31,7 @@ Ending Radio::begin(const world::Task& task, Time now, Surroundings& around) {
     return Failure{"no-contact", settings_.window + " is closed; send in the next window"};
   }
   const double rate = settings_.rate_bit_s * std::max(0.1, 1 + settings_.rate_noise * noise_.normal());
-  const Time sent = now + temporal::seconds(8.0 * static_cast<double>(image->second.bytes) / rate);
+  const Time sent = now + temporal::seconds(8.0 * static_cast<double>(image->bytes) / rate);
   const Time closes = window->next_change(now).value_or(sent);
   transfer_ = Transfer{id, std::min(sent, closes), closes < sent};
   return std::nullopt;
@@ -45,12 +45,10 @@ std::optional<Time> Radio::next_change() const {
 Ending Radio::finish(Surroundings& around) {
   const Transfer done = *std::exchange(transfer_, std::nullopt);
   if (done.cut_off) return Failure{"contact-lost", "the window closed before the image was sent"};
-  world::Image& image = around.body.images.at(done.image);
-  image.sent = true;
+  std::optional<world::Image> image = around.body.images.set_sent(done.image);
+  if (!image) return Failure{"no-image", "image '" + done.image + "' is not on board any more"};
   around.effects.push_back({"send", done.image});
-  around.out.push_back(image);
-  // Nobody looks at it on board any more. An assignment of {} would keep its memory.
-  image.preview = std::vector<std::uint8_t>();
+  around.out.push_back(*std::move(image));
   return std::nullopt;
 }
 

@@ -1,11 +1,10 @@
 // The body is what a simulated robot has beside its components.
 #pragma once
-#include <map>
 #include <optional>
-#include <string>
 
 #include "sim_svc/world/battery.hpp"
 #include "sim_svc/world/data_store.hpp"
+#include "sim_svc/world/image_store.hpp"
 #include "sim_svc/world/thermal.hpp"
 #include "sim_svc/world/values.hpp"
 
@@ -15,7 +14,7 @@ namespace roci::sim::world {
 struct Body {
   std::optional<Pose> pose;             ///< empty: it stands nowhere on the map
   std::optional<Battery> battery;       ///< empty: its power comes from elsewhere and never ends
-  std::map<std::string, Image> images;  ///< are on board, by id
+  ImageStore images;                    ///< are on board, or were sent
   std::optional<Thermal> thermal{};     ///< empty: it is warm enough everywhere
   std::optional<DataStore> data{};      ///< empty: nothing can be kept but images
 };

@@ -8,7 +8,14 @@ void Reporter::report(const std::string& timeline, temporal::Value value, tempor
   const auto [last, is_new] = last_.try_emplace(timeline, value);
   if (!is_new && last->second == value) return;
   last->second = value;
-  out.push_back(Observed{timeline, std::move(value), at});
+  out.push_back(Observed{timeline, std::move(value), at, false});
+}
+
+void Reporter::end(const std::string& timeline, temporal::Time at, Outputs& out) {
+  const auto last = last_.find(timeline);
+  if (last == last_.end()) return;
+  out.push_back(Observed{timeline, last->second, at, true});
+  last_.erase(last);
 }
 
 void Reporter::report_number(const std::string& timeline, double value, double resolution, temporal::Time at,

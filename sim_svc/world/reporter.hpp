@@ -12,6 +12,8 @@ namespace roci::sim::world {
 class Reporter {
  public:
   void report(const std::string& timeline, temporal::Value value, temporal::Time at, Outputs& out);
+  /// Reports that the timeline has ended, with the value that it has had last, and forgets it.
+  void end(const std::string& timeline, temporal::Time at, Outputs& out);
   /// Reports the value rounded to a multiple of the sensor's resolution.
   void report_number(const std::string& timeline, double value, double resolution, temporal::Time at,
                      Outputs& out);

@@ -40,7 +40,7 @@ Robot::Robot(RobotSetup setup, bool first, std::uint64_t seed)
 }
 
 RobotMemory Robot::memory(Time now) const {
-  RobotMemory out{body_.pose, std::nullopt, body_.images, {}};
+  RobotMemory out{body_.pose, std::nullopt, body_.images.images(), {}};
   if (body_.thermal) out.temperatures_k = body_.thermal->memory(now);
   if (body_.data) out.data = body_.data->memory();
   if (body_.battery) out.energy_j = body_.battery->energy_j();
@@ -52,7 +52,7 @@ void Robot::restore(const RobotMemory& memory, Time at) {
   next_report_ = at;
   if (body_.pose && memory.pose) body_.pose = memory.pose;
   if (body_.battery && memory.energy_j) body_.battery.emplace(*memory.energy_j, power_->capacity_j);
-  body_.images = memory.images;
+  body_.images.restore(memory.images);
   if (body_.thermal) body_.thermal->restore(memory.temperatures_k, at);
   if (body_.data) body_.data->restore(memory.data);
   for (Part& one : parts_)

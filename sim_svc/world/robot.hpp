@@ -65,7 +65,7 @@ struct Begun {
 struct RobotMemory {
   std::optional<Pose> pose;
   std::optional<double> energy_j;       ///< in its battery
-  std::map<std::string, Image> images;  ///< on board, by id
+  std::map<std::string, Image> images;  ///< on board or sent, by id
   std::map<std::string, Memory> components;
   std::map<std::string, double> temperatures_k{};  ///< by thermal zone
   DataMemory data{};

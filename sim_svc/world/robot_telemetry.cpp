@@ -46,8 +46,14 @@ void Robot::report_components(Time now, Reporter& reporter, Outputs& out) const 
 }
 
 void Robot::report_things(Time now, Reporter& reporter, Outputs& out) {
-  for (const auto& [id, image] : body_.images) {
-    reporter.report(name_ + ".image." + id, temporal::State{image.sent ? "sent" : "stored", {}}, now, out);
+  for (const ImageStore::Change& image : body_.images.take_changes()) {
+    const std::string timeline = name_ + ".image." + image.id;
+    if (image.state == ImageStore::State::forgotten) {
+      reporter.end(timeline, now, out);
+    } else {
+      const char* const state = image.state == ImageStore::State::sent ? "sent" : "stored";
+      reporter.report(timeline, temporal::State{state, {}}, now, out);
+    }
   }
   for (Part& one : parts_) {
     const auto version = one.component->states_version();

@@ -100,6 +100,7 @@ struct Observed {
   std::string timeline;
   temporal::Value value;
   temporal::Time at{};
+  bool ended = false;  ///< what it is about is forgotten; nothing more will be said of it
   bool operator==(const Observed&) const = default;
 };
 
