@@ -2,7 +2,7 @@
 #
 #   roci_library(NAME core_pddl HELP "..." SOURCES a.cpp b.cpp DEPENDS core_x PRIVATE_DEPENDS yaml-cpp)
 #   roci_program(NAME roci-plan HELP "..." SOURCES main.cpp DEPENDS planner_temporal_pddl)      installed to bin/, unless NOT_INSTALLED
-#     ROLES service owner: what it does in a run, so what a secure run lets it write and read (services/security/topic_rights.hpp)
+#     ROLES executive: what it may write and read in a secure run (cmake/ProgramRoles.cmake); without, rights of a mission's list say so
 #   roci_plugin (NAME roci_transport_inproc HELP "..." SOURCES ... DEPENDS ...)        installed to lib/rocinante/
 #   roci_test_library(NAME scenario_flight HELP "..." SOURCES flight.cpp DEPENDS ...)   what tests of one folder share
 #   roci_test   (NAME unit_pddl SOURCES parser_test.cpp DEPENDS core_pddl [LABEL contract] [SERIAL | PROCESSORS 2] [OPTIMIZED] [WHOLE])
@@ -30,6 +30,9 @@ add_custom_target(programs)
 find_package(GTest REQUIRED)
 find_package(nlohmann_json REQUIRED)
 include(GoogleTest)
+include(ProgramRoles)
+
+add_library(roci_program_roles INTERFACE)  # holds them until all programs are declared
 
 set(standard_headers <algorithm> <array> <chrono> <cmath> <filesystem> <fstream> <functional> <map> <memory> <optional> <set> <span> <sstream> <string>
                      <unordered_map> <vector>)
@@ -100,8 +103,7 @@ function(roci_program)
   add_executable(${PART_NAME} ${PART_SOURCES})
   _roci_part(${PART_NAME} ${ARGN})
   if(PART_ROLES)
-    list(JOIN PART_ROLES ", " roles)
-    set_property(GLOBAL APPEND_STRING PROPERTY ROCI_ROLES "      {\"${PART_NAME}\", {${roles}}},\n")
+    roci_note_roles(${PART_NAME} ${PART_ROLES})
   endif()
   # A command line is read once; optimizing that takes the compiler longer than anything else.
   list(FILTER PART_SOURCES INCLUDE REGEX "main\\.cpp$")
@@ -110,29 +112,6 @@ function(roci_program)
   if(NOT PART_NOT_INSTALLED)
     install(TARGETS ${PART_NAME} RUNTIME DESTINATION bin)
   endif()
-endfunction()
-
-# Writes down what each program does in a run, once all are declared; services_security compiles it.
-function(roci_write_program_roles)
-  get_property(roles GLOBAL PROPERTY ROCI_ROLES)
-  file(CONFIGURE OUTPUT "${PROJECT_BINARY_DIR}/program_roles.cpp" @ONLY CONTENT [[
-// Made by roci_write_program_roles (cmake/Parts.cmake): the ROLES of each roci_program.
-#include <map>
-
-#include "services/security/topic_rights.hpp"
-
-namespace roci::services::security {
-
-std::set<Role> roles_of_program(std::string_view program) {
-  using enum Role;
-  static const std::map<std::string_view, std::set<Role>> roles{
-@roles@  };
-  const auto found = roles.find(program);
-  return found == roles.end() ? std::set<Role>{} : found->second;
-}
-
-}  // namespace roci::services::security
-]])
 endfunction()
 
 function(roci_plugin)

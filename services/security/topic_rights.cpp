@@ -4,6 +4,7 @@
 #include <array>
 #include <utility>
 
+#include "services/security/program_roles.hpp"
 #include "services/topics/topics.hpp"
 
 namespace roci::services::security {
@@ -125,6 +126,14 @@ std::optional<Role> role_of(std::string_view word) {
 std::span<const TopicRights> topic_rights() {
   static const std::vector<TopicRights> table = make_table();
   return table;
+}
+
+std::set<Role> roles_of_program(std::string_view program) {
+  const auto found = program_roles().find(program);
+  if (found == program_roles().end()) return {};
+  std::set<Role> out = found->second;
+  out.insert(service);
+  return out;
 }
 
 std::vector<std::string> writable(const std::set<Role>& roles, transport::Scope scope) {

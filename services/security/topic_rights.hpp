@@ -48,8 +48,8 @@ struct TopicRights {
 /// A row for each topic of services/topics/topics.hpp.
 std::span<const TopicRights> topic_rights();
 
-/// Returns what a program of ours does in a run, as its roci_program declares it (ROLES; cmake/Parts.cmake writes the
-/// source), or nothing for a program that is not ours.
+/// Returns what a program does in a run: `service`, and the ROLES of its declaration (cmake/ProgramRoles.cmake). A
+/// program that was declared without, or is not built here, has none: `rights` of the mission's list name its roles.
 std::set<Role> roles_of_program(std::string_view program);
 
 /// Return the topics of a scope that these roles may write or read, in the order of the table.

@@ -41,6 +41,13 @@ TEST(TopicRights, WordsAndRolesAreOneToOne) {
   EXPECT_EQ(role_of("king"), std::nullopt);
 }
 
+TEST(TopicRights, AProgramHasTheRolesOfItsDeclaration) {
+  EXPECT_EQ(roles_of_program("dedicated_svc"), (std::set{Role::service, Role::owner, Role::commander}));
+  EXPECT_EQ(roles_of_program("planner_svc"), (std::set{Role::service, Role::planner, Role::resolver}));
+  EXPECT_EQ(roles_of_program("roci-plan"), std::set<Role>{});
+  EXPECT_EQ(roles_of_program("beacon"), std::set<Role>{});
+}
+
 TEST(Permissions, InnerTopicsAreThoseOfTheOwnRobot) {
   const std::string text =
       permissions("exec_svc", "CN=exec_svc", roles_of_program("exec_svc"), "rover", {0, 1});
