@@ -155,7 +155,8 @@ TEST(ExecService, WhatFloodsItsTablesIsRefusedAndTold) {
   seat.send(20s, photo_goal("second"));
   seat.run_until(300s);
   EXPECT_THAT(seat.events, Contains("timeline.no_room").Times(2)) << "the first and the tenth";
-  EXPECT_THAT(seat.events, ::testing::Not(Contains("timeline.contested"))) << "what is not taken has no source";
+  EXPECT_THAT(seat.events, ::testing::Not(Contains("timeline.contested")))
+      << "what is not taken has no source";
   EXPECT_THAT(seat.events, Contains("goal.no_room"));
   EXPECT_THAT(seat.events, Contains("order.no_room").Times(1));
   EXPECT_LE(seat.journal().goals().size(), kRejectedGoals + 2);
