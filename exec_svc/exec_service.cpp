@@ -82,7 +82,9 @@ MissionModel mission_behind_links(const Node& node, const services::RunSettings&
 }
 
 // Collects what comes in one turn of the loop, steps the reactor once, journals what it decided, then sends
-// it.
+// it. It has more members than a class of one purpose needs, because it is where the parts of the process
+// meet: each neighbour (planner, engine, owners, ground, partner, disk) has a part that owns what concerns
+// it, and of its own it keeps only the inputs of the turn.
 class ExecService final : public services::Service {
  public:
   ExecService(Node& node, const services::RunSettings& settings, Journal& journal, std::uint64_t epoch,
