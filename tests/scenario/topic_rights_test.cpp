@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <map>
 #include <set>
@@ -56,6 +57,18 @@ class NotingTransport : public transport::Transport {
   Used& used_;
 };
 
+// A run folder of its own, so that nothing is written where the test stands.
+struct RunFolder {
+  RunFolder() {
+    std::string name = (std::filesystem::temp_directory_path() / "roci_rights_XXXXXX").string();
+    path = ::mkdtemp(name.data());
+  }
+  RunFolder(const RunFolder&) = delete;
+  RunFolder& operator=(const RunFolder&) = delete;
+  ~RunFolder() { std::filesystem::remove_all(path); }
+  std::filesystem::path path;
+};
+
 Used used_by(const std::filesystem::path& mission, const mission::ServiceEntry& entry, bool live) {
   Used used;
   services::node::NodeOptions options = rehearsal::node_options(mission, entry, 0);
@@ -67,7 +80,9 @@ Used used_by(const std::filesystem::path& mission, const mission::ServiceEntry& 
       options, std::make_unique<NotingTransport>(
                    transport::open_transport("inproc", {.domain = 3, .participant = entry.name}), used));
   const services::TimeWatch time_watch(node, {.reference = "another"});
+  const RunFolder folder;
   services::RunSettings run{.mission = mission};
+  run.run_folder = folder.path;
   run.settings = entry.settings;
   const auto service = rehearsal::make_of(entry)(node, run);
   if (live) node.spin_once(std::chrono::milliseconds(0));
