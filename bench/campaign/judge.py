@@ -76,14 +76,21 @@ def flown_after_recall(recalls: list[dict], effects: list[dict], commanded: dict
     return out
 
 
+def accepted(answers: list[dict]) -> list[dict]:
+    return [one for one in answers if one["verb"] == "add" and one["state"] != "rejected"]
+
+
+def recalled(answers: list[dict]) -> list[dict]:
+    return [one for one in answers if one["verb"] == "recall" and one["state"] == "recalled"]
+
+
 def lost_goals(answers: list[dict], scenario_goals: list[str], final: dict, others: list[dict]) -> list[str]:
     """Which goals the final executive's journal lacks and must not: those of the scenario, those that were answered as held by
     both, and those that were answered as journaled alone if no other journal has them either. What a leader has journaled
     alone survives if its disk comes back (docs/resilience.md)."""
     added = {}
-    for answer in answers:
-        if answer["verb"] == "add" and answer["state"] != "rejected":
-            added.setdefault(answer["goal"], set()).add(answer["acknowledged"])
+    for one in accepted(answers):
+        added.setdefault(one["goal"], set()).add(one["acknowledged"])
     lost = [f"goal {goal} is not in the journal" for goal in sorted(set(scenario_goals) - set(final))]
     for goal in sorted(set(added) - set(final)):
         if HELD_BY_BOTH in added[goal]:
@@ -96,9 +103,9 @@ def lost_goals(answers: list[dict], scenario_goals: list[str], final: dict, othe
 def lost_recalls(answers: list[dict], final: dict, others: list[dict]) -> list[str]:
     """Which recalls the final executive's journal contradicts and must not, by the same rule."""
     out = []
-    for one in answers:
+    for one in recalled(answers):
         goal = one["goal"]
-        if one["verb"] != "recall" or one["state"] != "recalled" or goal not in final or final[goal][0] == RECALLED:
+        if goal not in final or final[goal][0] == RECALLED:
             continue
         if one["acknowledged"] == HELD_BY_BOTH or not any(other.get(goal, (None,))[0] == RECALLED for other in others):
             out.append(f"recall of {goal} was acknowledged, and its state is {final[goal]}")
@@ -119,13 +126,12 @@ def judge(flight: dict, effects: list[dict], final: Path | None, journals: list[
         violations.append("no executive told its end")
     goals = read_goals(final) if final else {}
     others = [read_goals(journal) for journal in journals if journal != final]
-    acknowledged = {answer["goal"] for answer in flight["answers"] if answer["verb"] == "add" and answer["state"] != "rejected"}
-    asked = acknowledged | set(flight["scenario_goals"])
+    asked = {one["goal"] for one in accepted(flight["answers"])} | set(flight["scenario_goals"])
     lost = lost_goals(flight["answers"], flight["scenario_goals"], goals, others)
     late = after_the_end(final, speed) if final else set()
     lost += [f"goal {goal} is still open ({goals[goal][1]})" for goal in sorted(asked & set(goals) - late)
              if goals[goal][0] not in FINAL and not flight["time_up"] and "waiting for the ground" not in goals[goal][1]]
-    recalls = [answer for answer in flight["answers"] if answer["verb"] == "recall" and answer["state"] == "recalled"]
+    recalls = recalled(flight["answers"])
     recalls_lost = lost_recalls(flight["answers"], goals, others)
     held = [one for one in recalls if one["acknowledged"] == HELD_BY_BOTH or not others]
     recalls_lost += flown_after_recall(held, effects, first_commanded(journals), speed)
