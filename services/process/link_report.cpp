@@ -24,17 +24,6 @@ link::Counts counts_of(const json& report) {
           count_of(report, "superseded"), count_of(report, "under_way"), count_of(report, "repeated")};
 }
 
-// Who does what about it (docs/links.md).
-const char* effect_of(const link::LostSample& sample) {
-  if (sample.fate == link::Fate::repeated) return "sent again";
-  if (sample.fate == link::Fate::superseded) return "superseded";
-  const std::string& topic = sample.topic;
-  if (topic == topics::command.name) return "asked for";
-  if (topic.ends_with("/request") || topic.ends_with("/reply")) return "called again";
-  if (topic == topics::plan_delta.name) return "made up for by a newer version";
-  return "never heard";
-}
-
 json as_json(const link::LostSample& sample) {
   return {{"time_us", sample.at.count()}, {"link", sample.link},
           {"topic", sample.topic},        {"key", sample.key},
@@ -44,6 +33,17 @@ json as_json(const link::LostSample& sample) {
 }
 
 }  // namespace
+
+const char* effect_of(const link::LostSample& sample) {
+  if (sample.fate == link::Fate::repeated) return "sent again";
+  if (sample.fate == link::Fate::superseded) return "superseded";
+  const std::string& topic = sample.topic;
+  if (topic == topics::command.name) return "asked for";
+  if (topic == topics::call_cancel.name) return "answered in vain";
+  if (topic.ends_with("/request") || topic.ends_with("/reply")) return "called again";
+  if (topic == topics::plan_delta.name) return "made up for by a newer version";
+  return "never heard";
+}
 
 json as_json(const std::map<std::string, link::Counts>& links) {
   json out = json::object();

@@ -16,6 +16,9 @@ namespace roci::services::process {
 /// what is done about it (docs/links.md). Call it when the node's loop has ended.
 void write_link_report(const Node&, const std::filesystem::path& run_folder);
 
+/// Returns what becomes of a sample that did not arrive at an attempt, in the words of the table in docs/links.md.
+const char* effect_of(const link::LostSample&);
+
 /// Returns the sum of all reports, by name of the link. Other files are ignored.
 std::map<std::string, link::Counts> read_link_reports(const std::filesystem::path& run_folder);
 
