@@ -76,21 +76,26 @@ bool TopicWriter::within_limit(const Key& key) {
   return !barriered() || ++written_[key] <= transport::micro_step_limit(topic_.qos, topic_.limit);
 }
 
+void TopicWriter::report_refusal(const char* why, const std::string& text) {
+  if (const std::uint64_t count = refused_.note(why))
+    log::error(options_.name + " " + text + " (" + std::to_string(count) + " so far)");
+}
+
 bool TopicWriter::write(const transport::Payload& payload) {
   if (payload.size() > transport::bytes(topic_.limit)) {
-    log::error(options_.name + " wants to write " + std::to_string(payload.size()) + " bytes on " +
-               topic_.name + ", where a sample has at most " +
-               std::to_string(transport::bytes(topic_.limit)) + "; this one is refused");
+    report_refusal("too large", "wants to write " + std::to_string(payload.size()) + " bytes on " +
+                                    topic_.name + ", where a sample has at most " +
+                                    std::to_string(transport::bytes(topic_.limit)) + "; this one is refused");
     return false;
   }
   const std::optional<Key> key = key_of(payload);
   if (!key) return false;
   if (!within_limit(*key)) {
     if (quiet_) return false;
-    log::error(options_.name + " wrote more than " +
-               std::to_string(transport::micro_step_limit(topic_.qos, topic_.limit)) +
-               " samples of one instance of " + topic_.name +
-               " in one micro-step; this one is refused: spread them over mission time");
+    report_refusal("too many", "wrote more than " +
+                                   std::to_string(transport::micro_step_limit(topic_.qos, topic_.limit)) +
+                                   " samples of one instance of " + topic_.name +
+                                   " in one micro-step; this one is refused: spread them over mission time");
     return false;
   }
   if (!writer_->write(payload)) return false;

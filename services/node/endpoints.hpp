@@ -15,6 +15,7 @@
 #include "core/temporal/duration.hpp"
 #include "roci_idl/basic.h"
 #include "roci_idl/clock.h"
+#include "services/bounds/tally.hpp"
 #include "services/node/contract_check.hpp"
 #include "services/node/finished_instances.hpp"
 #include "services/node/inbox.hpp"
@@ -98,6 +99,8 @@ class TopicWriter {
   bool barriered() const;
   bool within_limit(const Key&);
   void forget_finished();
+  // Writes a line to the log for the first sample that is refused for a reason, the tenth, the hundredth, and so on.
+  void report_refusal(const char* why, const std::string& text);
 
   const NodeOptions& options_;
   const RunIdentity& run_;
@@ -108,6 +111,7 @@ class TopicWriter {
   std::uint64_t total_ = 0;
   std::unordered_map<Key, int> written_;  // samples of this micro-step
   FinishedInstances finished_;
+  bounds::Tally refused_;  // by reason
   bool quiet_ = false;
 };
 

@@ -248,6 +248,22 @@ TEST(SimNode, TooManySamplesOfOneInstanceAreRefused) {
   EXPECT_EQ(seen.back(), "next micro-step");
 }
 
+TEST(SimNode, AFloodOfItsOwnSamplesIsALogLineForEachTenfoldCount) {
+  SimRun run({"a"});
+  Node& a = run.add("a");
+  const auto events = advertise(a, topics::event);
+  constexpr int kRefused = 150;
+  a.at(1ms, [&] {
+    for (int i = 0; i < transport::kMicroStepLimit + kRefused; ++i) events.write(event("again"));
+  });
+  a.at(2ms, [&a] { a.stop(); });
+  testing::internal::CaptureStderr();
+  run.run();
+  const std::string log = testing::internal::GetCapturedStderr();
+  EXPECT_THAT(log, AllOf(HasSubstr("(1 so far)"), HasSubstr("(10 so far)"), HasSubstr("(100 so far)")));
+  EXPECT_EQ(std::ranges::count(log, '\n'), 3) << log;
+}
+
 v1::CommandAck last_word(int number) {
   v1::CommandAck ack;
   ack.activity("a" + std::to_string(number));
