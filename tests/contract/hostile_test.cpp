@@ -196,6 +196,20 @@ TEST_P(Hostile, NobodyElseSaysFarewellForAParticipant) {
   EXPECT_THAT(reader.lines(), testing::Not(testing::Contains("matched 0")));
 }
 
+// Debian's Fast DDS asserts, or stands still for ever, where a farewell meets the end of its sender's lease.
+TEST_P(Hostile, AFarewellAtTheEndOfALeaseEndsNoReader) {
+  ChildProcess reader(reader_command(GetParam(), domain_.id()));
+  ASSERT_TRUE(reader.wait_for("ready"));
+  hostile::Participant passer_by(kLoopback, domain_.id(), hostile::kEprosima, 1, "");
+  constexpr int kVisits = 10'000;
+  for (int i = 0; i < kVisits; ++i) {
+    passer_by.set_lease(std::chrono::microseconds(1 + i % 500));
+    passer_by.announce();
+    passer_by.leave();
+  }
+  expect_still_reading(reader);
+}
+
 INSTANTIATE_TEST_SUITE_P(Vendors, Hostile, testing::Values("fastdds", "cyclonedds"),
                          [](const auto& test) { return std::string(test.param); });
 

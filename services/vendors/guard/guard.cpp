@@ -40,12 +40,10 @@ Guard::Guard(Policy policy) : policy_(std::move(policy)), identities_(policy_.se
 std::size_t Guard::admit(std::span<std::uint8_t> datagram, const std::optional<Source>& source) {
   const std::lock_guard lock(mutex_);
   const DatagramAdmission admission = judge(datagram, source);
-  if (admission == DatagramAdmission::pass && !policy_.secure) {
-    ++counts_[static_cast<std::size_t>(admission)];
-    return strip_vendor_submessages(datagram);
-  }
   if (admission == DatagramAdmission::pass) {
-    const std::size_t left = admit_secure(datagram.first(strip_vendor_submessages(datagram)));
+    std::size_t left = strip_vendor_submessages(datagram);
+    if (policy_.without_farewells) left = strip_farewells(datagram.first(left));
+    if (policy_.secure) left = admit_secure(datagram.first(left));
     ++counts_[static_cast<std::size_t>(left > 0 ? DatagramAdmission::pass : DatagramAdmission::plain)];
     return left;
   }

@@ -25,6 +25,8 @@ struct Policy {
   /// Says that plain text is refused but for what DDS Security cannot encrypt, and that GUID prefixes are those of
   /// certificates.
   bool secure = false;
+  /// Says that no farewell of a participant is let through, so that each is given up when its lease is over.
+  bool without_farewells = false;
 };
 
 /// Returns the policy that takes the peers of these options (peers_of), this host among them; with vendor_xml

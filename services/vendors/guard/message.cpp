@@ -41,6 +41,17 @@ std::size_t strip(std::span<std::uint8_t> message, Keep keep) {
   return end;
 }
 
+// The participants' writer disposes or unregisters a participant, which a sample without data does as well.
+bool is_farewell(std::span<const std::uint8_t> one) {
+  if (one[0] != kData) return false;
+  const ByteView body{one.subspan(kSubmessageHeaderSize), is_little_endian(one)};
+  if (ByteView{body.part(8, 4).bytes, false}.u32(0) != kParticipants) return false;
+  if ((one[1] & kDataFlag) == 0) return true;
+  if ((one[1] & kInlineQosFlag) == 0) return false;
+  const auto status = find_parameter(body.from(4 + std::size_t{body.u16(2)}), kStatusInfo);
+  return status && (status->bytes[3] & kNotAlive) != 0;
+}
+
 // SRTPS_PREFIX, SEC_BODY, SRTPS_POSTFIX and nothing else (DDS Security 1.1, 7.3.6.6): a parser that meets the prefix
 // later reads the rest in plain.
 bool is_encrypted(std::span<const std::uint8_t> message) {
@@ -119,6 +130,10 @@ void for_each_submessage(std::span<const std::uint8_t> message,
 
 std::size_t strip_vendor_submessages(std::span<std::uint8_t> message) {
   return strip(message, [](std::span<const std::uint8_t> one) { return one[0] < kFirstOfVendors; });
+}
+
+std::size_t strip_farewells(std::span<std::uint8_t> message) {
+  return strip(message, [](std::span<const std::uint8_t> one) { return !is_farewell(one); });
 }
 
 std::size_t strip_plain_submessages(std::span<std::uint8_t> message) {

@@ -31,6 +31,10 @@ void for_each_submessage(std::span<const std::uint8_t> message,
 /// unlikely ones.
 std::size_t strip_vendor_submessages(std::span<std::uint8_t> message);
 
+/// Takes out of a message that passed what says that a participant leaves, and returns the new length. Who does not
+/// hear it gives that participant up when its lease is over.
+std::size_t strip_farewells(std::span<std::uint8_t> message);
+
 /// Takes out of a message of a secure run, one that passed and has no vendor's submessages, what must not be read in
 /// plain, and returns the new length; 0 if nothing is left that says something. A message that is encrypted as a
 /// whole stays; else what precedes the exchange of keys (announcement of participants, handshake) stays, and

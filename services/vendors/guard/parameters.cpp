@@ -88,4 +88,14 @@ ListAdmission examine_parameters(const ByteView& list, ListKind kind,
   }
 }
 
+std::optional<ByteView> find_parameter(const ByteView& list, std::uint16_t wanted) {
+  for (std::size_t at = 0;;) {
+    const auto id = static_cast<std::uint16_t>(list.u16(at) & ~kMustUnderstand);
+    const std::size_t length = list.u16(at + 2);
+    if (id == kSentinel) return std::nullopt;
+    if (id == wanted) return list.part(at + 4, length);
+    at += 4 + length;
+  }
+}
+
 }  // namespace roci::services::vendors::guard

@@ -31,4 +31,7 @@ struct ListAdmission {
 ListAdmission examine_parameters(const ByteView& list, ListKind,
                                  const std::optional<GuidPrefix>& only_guids_of);
 
+/// Returns the value of the first parameter with this id in a list that passed examine_parameters(), or nothing.
+std::optional<ByteView> find_parameter(const ByteView& list, std::uint16_t id);
+
 }  // namespace roci::services::vendors::guard

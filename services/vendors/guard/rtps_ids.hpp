@@ -31,6 +31,9 @@ inline constexpr std::uint8_t kInlineQosFlag = 0x02;
 inline constexpr std::uint8_t kDataFlag = 0x04;
 inline constexpr std::uint8_t kKeyFlag = 0x08;
 
+/// Flags of PID_STATUS_INFO in its last byte: the instance was disposed, or unregistered (RTPS 2.3, 9.6.3.9).
+inline constexpr std::uint8_t kNotAlive = 0x03;
+
 /// Flag of INFO_TS: there is no time from here on (RTPS 2.3, 9.4.5.11).
 inline constexpr std::uint8_t kInvalidateFlag = 0x02;
 

@@ -63,9 +63,11 @@ Bytes Participant::own_sample() const {
       .add(0x0016, {vendor_[0], vendor_[1]})
       .add_guid(0x0050, prefix_, kParticipant);
   parameters.add_locator(0x0032, target_, kDeadPort).add_locator(0x0031, target_, kDeadPort);
+  constexpr std::uint64_t kSecond = 1'000'000;
+  const auto lease_us = static_cast<std::uint64_t>(lease_.count());
   Bytes lease;
-  put_u32(lease, 20);
-  put_u32(lease, 0);
+  put_u32(lease, static_cast<std::uint32_t>(lease_us / kSecond));
+  put_u32(lease, static_cast<std::uint32_t>((lease_us % kSecond << 32) / kSecond));
   parameters.add(0x0002, lease).add_u32(0x0058, 0x0000003f);
   Bytes user_data;
   put_u32(user_data, static_cast<std::uint32_t>(user_data_.size()));
@@ -99,6 +101,13 @@ void Participant::announce() {
     send_to_discovery(message().data(kPublicationReader, kPublicationWriter, static_cast<std::int64_t>(i) + 1,
                                      kData, {}, writer_sample(i)));
   }
+}
+
+void Participant::leave() {
+  const auto gone = Parameters().add_guid(0x0070, prefix_, kParticipant).add(0x0071, {0, 0, 0, 3}).list();
+  send_to_discovery(message().data(kParticipantReader, kParticipantWriter, ++announcements_,
+                                   kInlineQos | kKey, gone,
+                                   Parameters().add_guid(0x0050, prefix_, kParticipant).sample()));
 }
 
 void Participant::send_to_readers(const Message& message) const {

@@ -1,6 +1,7 @@
 // A participant without a vendor: it is discovered, matched and read like any other, and sends whatever bytes it likes.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -42,6 +43,10 @@ class Participant {
 
   /// Tells the first participants of the domain on the target of itself and of its writers.
   void announce();
+  /// Says farewell to them, as both vendors do when a participant is deleted.
+  void leave();
+  /// Sets the lease that it announces; it is 20 s at first.
+  void set_lease(std::chrono::microseconds lease) { lease_ = lease; }
   void send_to_readers(const Message&) const;  ///< To the ports for samples of users.
   void send_to_discovery(const Message&) const;
   /// To both, messages in whose middle stand the statistics that Fast DDS reads at the end.
@@ -63,6 +68,7 @@ class Participant {
   Socket socket_;
   std::vector<WriterDescription> writers_;
   std::uint32_t announcements_ = 0;
+  std::chrono::microseconds lease_{20'000'000};
 };
 
 /// The entity id of the writer that was added as number `index`, from 0.

@@ -22,6 +22,7 @@ using services::contract::hostile::Prefix;
 using services::vendors::guard::DatagramAdmission;
 using services::vendors::guard::examine;
 using services::vendors::guard::kAdmissions;
+using services::vendors::guard::strip_farewells;
 using services::vendors::guard::strip_vendor_submessages;
 
 std::vector<Bytes> seeds() {
@@ -48,6 +49,7 @@ std::vector<Bytes> seeds() {
       message().data(0, kParticipants, 1, kData, {}, participant).submessage(0x80, 0, statistics).bytes(),
       message().data(0, kEndpoints, 1, kData, {}, writer).heartbeat(0, kEndpoints, 1, 1, 1).bytes(),
       message().data(0, kParticipants, 2, kInlineQos, guid_hash, {}).bytes(),
+      message().data(0, kParticipants, 3, kInlineQos | kData, guid_hash, participant).bytes(),
       message().data(0, kWriter, 1, kInlineQos | kData, guid_hash, Bytes(40, 1)).bytes(),
       message().fragment(0, kWriter, 2, 1, 2, 32, 64, Bytes(64)).gap(0, kWriter, 1, 4, 64).bytes(),
       message().submessage(0x0e, 0, Bytes(12)).acknack(7, kWriter, 1, 40).submessage(0x12, 0, nack).bytes(),
@@ -94,6 +96,9 @@ TEST(FuzzGuard, MutatedMessagesAreJudgedWithinTheirBytes) {
     const std::size_t size = strip_vendor_submessages(datagram);
     ASSERT_LE(size, datagram.size());
     ASSERT_EQ(examine(datagram.first(size)), DatagramAdmission::pass) << "round " << i;
+    const std::size_t left = strip_farewells(datagram.first(size));
+    ASSERT_LE(left, size);
+    ASSERT_EQ(examine(datagram.first(left)), DatagramAdmission::pass) << "round " << i;
   }
   for (const DatagramAdmission admission :
        {DatagramAdmission::pass, DatagramAdmission::no_rtps, DatagramAdmission::cut,

@@ -269,6 +269,41 @@ TEST(Guard, VendorsOwnSubmessagesAreTakenOut) {
   EXPECT_EQ(with, bare);
 }
 
+// As both vendors say it, and two other ways that the protocol permits.
+TEST(Guard, AFarewellIsTakenOutOfItsMessage) {
+  constexpr std::uint32_t kReader = 0x000100c7, kParticipant = 0x000001c1;
+  const Bytes gone = Parameters().add_guid(0x0070, kOwn, kParticipant).add(0x0071, {0, 0, 0, 3}).list();
+  const Bytes alive = Parameters().add(0x0071, {0, 0, 0, 0}).list();
+  const Bytes name = Parameters().add_guid(0x0050, kOwn, kParticipant).sample();
+  const auto stripped = [](const Message& message) {
+    Bytes bytes = message.bytes();
+    EXPECT_EQ(examine(bytes), DatagramAdmission::pass);
+    bytes.resize(strip_farewells(bytes));
+    return bytes;
+  };
+  const Message rest = own().heartbeat(0, kUserWriter, 1, 1, 1);
+  const auto with = [&](std::uint8_t flags, const Bytes& qos, const Bytes& payload) {
+    return own().data(kReader, kParticipants, 7, flags, qos, payload).heartbeat(0, kUserWriter, 1, 1, 1);
+  };
+  EXPECT_EQ(stripped(with(kInlineQos | kKey, gone, name)), rest.bytes());
+  EXPECT_EQ(stripped(with(kInlineQos, gone, {})), rest.bytes());
+  EXPECT_EQ(stripped(with(kInlineQos | kData, gone, name)), rest.bytes());
+  EXPECT_EQ(stripped(with(kInlineQos | kData, alive, name)), with(kInlineQos | kData, alive, name).bytes());
+  EXPECT_EQ(stripped(with(kData, {}, name)), with(kData, {}, name).bytes()) << "an announcement";
+  const Message of_a_user = own().data(0, kUserWriter, 7, kInlineQos, gone, {});
+  EXPECT_EQ(stripped(of_a_user), of_a_user.bytes()) << "an instance of a topic";
+}
+
+TEST(Guard, LetsNoFarewellThroughWhereItsPolicySaysSo) {
+  constexpr std::uint32_t kReader = 0x000100c7;
+  const Bytes farewell = own().data(kReader, kParticipants, 7, kInlineQos, Parameters().list(), {}).bytes();
+  for (const bool without : {true, false}) {
+    Guard guard({.peers = {0x7f000001}, .without_farewells = without});
+    Bytes message = farewell;
+    EXPECT_EQ(guard.admit(message, Source{0x7f000001, 7400}), without ? kHeaderSize : farewell.size());
+  }
+}
+
 TEST(Guard, AStrangerIsRefusedWhateverItSays) {
   Guard guard({{0x7f000001}});
   Bytes message = own().heartbeat(0, kUserWriter, 1, 1, 1).bytes();
