@@ -18,6 +18,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 DAY_S = 86400
+HEAPTRACK = "/usr/lib/heaptrack/libheaptrack_preload.so"
 SETTLED = 0.2  # this share of the days is left out of the fit: tables and caches fill up
 PLACES = [(60, 44), (52, 56), (60, 60), (60, 45), (48, 48), (54, 50), (110, 60), (70, 70)]
 # Communication windows of each day, s of the day.
@@ -35,6 +36,8 @@ def parse() -> argparse.Namespace:
     parser.add_argument("--mission", type=Path, default=ROOT / "missions/planetary")
     parser.add_argument("--bin", type=Path, default=ROOT / "build/release/bin")
     parser.add_argument("--out", type=Path, default=Path("endurance.jsonl"), help="one line for each day is appended here")
+    parser.add_argument("--heaptrack", default="", metavar="SERVICE,…",
+                        help="record what these allocate, in OUT.SERVICE.heap, for heap.py")
     parser.add_argument("--report", type=Path, metavar="FILE", help="print the table of an earlier flight and end")
     return parser.parse_args()
 
@@ -68,6 +71,24 @@ def make_mission(options: argparse.Namespace, folder: Path) -> None:
         f"description: Goals drip in for {days} days.\nduration_s: {options.days * DAY_S:.0f}\n"
         "start: {x: 40, y: 40, heading: 0, arm: stow, battery: 900000}\nworld: {slip: 0.04, image_noise: 0.02}\n"
         "stimuli:\n" + "\n".join(lines) + "\n")
+
+
+def with_heaptrack(options: argparse.Namespace, services: list[str], folder: Path) -> Path:
+    """Returns a folder of programs, of which `services` record what they allocate."""
+    folder.mkdir(parents=True)
+    (folder.parent / "lib").symlink_to((options.bin / "../lib").resolve())
+    for program in options.bin.iterdir():
+        shutil.copy2(program, folder / (f"{program.name}-recorded" if program.name in services else program.name))
+    for name in services:
+        script = folder / name
+        script.write_text(f'#!/bin/bash\nexport DUMP_HEAPTRACK_OUTPUT="{heap_of(options, name).resolve()}"\n'
+                          f'export LD_PRELOAD={HEAPTRACK}\nexec -a "{script}" "{script}-recorded" "$@"\n')
+        script.chmod(0o755)
+    return folder
+
+
+def heap_of(options: argparse.Namespace, service: str) -> Path:
+    return Path(f"{options.out}.{service}.heap")
 
 
 def processes(launcher: int) -> dict[str, int]:
@@ -153,7 +174,9 @@ def main() -> int:
     work = Path(tempfile.mkdtemp(prefix="roci_endurance_"))
     make_mission(options, work / "mission")
     run = work / "run"
-    command = [options.bin / "roci-launch", work / "mission", "--scenario", "endurance", "--dds", options.dds, "--seed", options.seed,
+    recorded = [name for name in options.heaptrack.split(",") if name]
+    programs = with_heaptrack(options, recorded, work / "programs/bin") if recorded else options.bin
+    command = [programs / "roci-launch", work / "mission", "--scenario", "endurance", "--dds", options.dds, "--seed", options.seed,
                "--speed", "max", "--headless", "--json", "--run-folder", run, *(["--standby"] if options.standby else [])]
     days: list[dict] = []
     begun = time.monotonic()
@@ -164,6 +187,8 @@ def main() -> int:
                 day = mission_time(run / "journal.sqlite") / DAY_S
                 if day >= len(days) + 1:
                     days.append(look(launcher.pid, run, day, begun))
+                    if recorded:
+                        days[-1]["heap_bytes"] = {name: heap_of(options, name).stat().st_size for name in recorded}
                     with open(options.out, "a") as out:
                         out.write(json.dumps(days[-1]) + "\n")
                     print(f"day {day:.2f} after {days[-1]['wall_s']:.0f} s", file=sys.stderr)
