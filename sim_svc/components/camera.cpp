@@ -41,8 +41,12 @@ Ending Camera::begin(const world::Task& task, Time now, Surroundings& around) {
   if (wheels && !wheels->place()) {
     return Failure{"driving", "the robot drives and the image would be blurred; stop it first"};
   }
+  const std::string& id = task.arguments.at("image");
+  if (!around.body.images.has_room_for(id)) {
+    return Failure{"data-full", "there is no room on board for image '" + id + "'; send others first"};
+  }
   const double duration = settings_.duration_s * noise_.factor(settings_.duration_noise);
-  shot_ = Shot{task.arguments.at("image"), task.key.activity, now + temporal::seconds(duration)};
+  shot_ = Shot{id, task.key.activity, now + temporal::seconds(duration)};
   return std::nullopt;
 }
 

@@ -12,6 +12,11 @@ void ImageStore::add(Image image) {
   images_.insert_or_assign(image.id, std::move(image));
 }
 
+bool ImageStore::has_room_for(const std::string& id) const {
+  const Image* const earlier = find(id);
+  return images_.size() - sent_.size() < kStored || (earlier != nullptr && !earlier->sent);
+}
+
 const Image* ImageStore::find(const std::string& id) const {
   const auto found = images_.find(id);
   return found == images_.end() ? nullptr : &found->second;
@@ -23,8 +28,9 @@ std::optional<Image> ImageStore::set_sent(const std::string& id) {
   Image& image = found->second;
   if (!std::exchange(image.sent, true)) sent_.push_back(id);
   changed_.insert(id);
+  std::vector<std::uint8_t> picture = std::exchange(image.preview, std::vector<std::uint8_t>());
   Image out = image;
-  image.preview = std::vector<std::uint8_t>();  // an assignment of {} would keep its memory
+  out.preview = std::move(picture);
   forget_oldest_sent();
   return out;
 }

@@ -13,13 +13,17 @@
 
 namespace roci::sim::world {
 
-/// Holds images by id. What is not sent stays on board with its picture. Of a sent image the store keeps a record
-/// without the picture, so that an executive that has lost its journal observes what was sent and does not ask for it
-/// again. The newest kSent records stay; older ones are forgotten, as if those images had never been taken.
+/// Holds images by id. What is not sent stays on board with its picture, and while kStored images wait to be sent there
+/// is no room for another. Of a sent image the store keeps a record without the picture, so that an executive that has
+/// lost its journal observes what was sent and does not ask for it again. The newest kSent records stay; older ones are
+/// forgotten, as if those images had never been taken.
 class ImageStore {
  public:
   /// Bounds the records of sent images: four images a day for 500 days.
   static constexpr std::size_t kSent = 2'000;
+  /// Bounds the images that wait to be sent: many times those of one plan, so that it leaves room to spare when goals
+  /// are taken back whose images nobody sends any more.
+  static constexpr std::size_t kStored = 200;
 
   enum class State : std::uint8_t { stored, sent, forgotten };
   struct Change {
@@ -28,6 +32,8 @@ class ImageStore {
     bool operator==(const Change&) const = default;
   };
 
+  /// Returns whether an image of that id may be taken now: it may take the place of an earlier one.
+  bool has_room_for(const std::string& id) const;
   /// Takes in an image that is not sent, in the place of an earlier one of its id.
   void add(Image);
   /// Returns the image of that id, or null when none is on board or remembered.

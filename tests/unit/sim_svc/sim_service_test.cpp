@@ -7,10 +7,12 @@
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "core/mission/entry.hpp"
 #include "services/publisher.hpp"
 #include "services/rpc.hpp"
+#include "sim_svc/world/image_store.hpp"
 #include "sim_svc/world_file_service.hpp"
 #include "tests/unit/core/durable/sync_record.hpp"
 #include "tests/unit/services/sim_run.hpp"
@@ -268,6 +270,54 @@ TEST_F(SimService, DataGoAsTheDownlinkScheduleSaysAndTheirFatesAreTold) {
   }
   EXPECT_THAT(fates, ElementsAre("early decisional stored", "late residual stored", "late residual sent",
                                  "late residual received"));
+}
+
+// The timelines of images that the robot has forgotten leave the wire, too: who joins late hears of the newest of them.
+TEST_F(SimService, ALateJoinerHearsOfTheImagesThatTheRobotRemembers) {
+  constexpr int kCameras = 130, kRounds = 16, kEndedKept = 64;
+  static_assert(kCameras * kRounds > world::ImageStore::kSent + kEndedKept);
+  std::string components;
+  for (int i = 0; i < kCameras; ++i) {
+    const std::string number = std::to_string(i);
+    components += "        - {name: camera" + number + ", type: camera, duration_s: 1, duration_noise: 0, " +
+                  "width_px: 8, height_px: 8}\n        - {name: radio" + number +
+                  ", type: radio, rate_bit_s: 1e9}\n";
+  }
+  write("mission.yaml",
+        "site: site.yaml\nwindows: [{timeline: comm.window, open: [[0, 9000]]}]\n"
+        "simulation:\n  robots:\n    - name: rover\n      power: {}\n      components:\n" +
+            components);
+  write("scenarios/nominal.yaml", "duration_s: 2000\nstart: {x: 20, y: 20, battery: 500000}\n");
+  services::SimRun run({"sim_svc", "exec_svc", "arm_svc"});
+  run.master.restart_hold_s = 1000;  // mission time waits for the service that was killed
+  services::Node& simulator = run.add("sim_svc");
+  services::RunSettings settings;
+  settings.mission = folder_;
+  const auto service = make_service(simulator, settings);
+  services::Node& executive = run.add("exec_svc");
+  const auto sender = services::advertise(executive, topics::command);
+  const auto command_all = [&sender](const std::string& component, const std::string& name, int round) {
+    for (int i = 0; i < kCameras; ++i) {
+      const std::string image = "i" + std::to_string(round * kCameras + i);
+      sender.write(command(name + "-" + image, component + std::to_string(i), name, {{"image", image}}));
+    }
+  };
+  for (int round = 0; round < kRounds; ++round) {
+    executive.at(round * 10s + 1s, [&command_all, round] { command_all("camera", "image", round); });
+    executive.at(round * 10s + 5s, [&command_all, round] { command_all("radio", "send", round); });
+  }
+  run.add("arm_svc").at(500s, [] { throw services::Crash{}; });
+  simulator.at(600s, [&simulator] { simulator.stop(); });
+  run.start();
+  run.wait_for_crash("arm_svc");
+  std::set<std::string> heard;
+  services::subscribe(run.add("arm_svc", 2), topics::observation, [&](const v1::Observation& seen) {
+    if (seen.timeline().starts_with("rover.image.")) heard.insert(seen.timeline());
+  });
+  run.run();
+  EXPECT_EQ(heard.size(), world::ImageStore::kSent + kEndedKept);
+  for (int i = kCameras; i < kCameras * kRounds; ++i)  // of the first round some are forgotten
+    EXPECT_TRUE(heard.contains("rover.image.i" + std::to_string(i))) << i;
 }
 
 TEST_F(SimService, UploadsAndRecallsTheScenariosGoals) {

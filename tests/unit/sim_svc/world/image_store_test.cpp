@@ -48,6 +48,14 @@ TEST(ImageStore, TellsWhatHasChangedOnce) {
   EXPECT_THAT(store.take_changes(), IsEmpty());
 }
 
+TEST(ImageStore, GivesThePictureAwayWithoutACopy) {
+  ImageStore store;
+  store.add(image("one"));
+  const std::uint8_t* const picture = store.find("one")->preview.data();
+  EXPECT_EQ(store.set_sent("one")->preview.data(), picture);
+  EXPECT_EQ(store.find("one")->preview.capacity(), 0U);
+}
+
 TEST(ImageStore, RemembersTheNewestSentImagesAndAllThatAreNotSent) {
   ImageStore store;
   store.add(image("unsent"));
@@ -61,6 +69,41 @@ TEST(ImageStore, RemembersTheNewestSentImagesAndAllThatAreNotSent) {
   EXPECT_NE(store.find("unsent"), nullptr);
   EXPECT_EQ(store.find("i999"), nullptr);
   EXPECT_NE(store.find("i1000"), nullptr);
+}
+
+TEST(ImageStore, HasRoomForSoManyImagesThatAreNotSent) {
+  ImageStore store;
+  for (std::size_t i = 0; i < ImageStore::kStored; ++i) {
+    ASSERT_TRUE(store.has_room_for("next"));
+    store.add(image("i" + std::to_string(i)));
+  }
+  EXPECT_FALSE(store.has_room_for("next"));
+  EXPECT_TRUE(store.has_room_for("i0")) << "it takes the place of the earlier one";
+  store.set_sent("i0");
+  EXPECT_TRUE(store.has_room_for("next"));
+  store.add(image("next"));
+  EXPECT_FALSE(store.has_room_for("i0")) << "it would be one that is not sent again";
+}
+
+// An image whose goal was taken back is never sent, and others come.
+TEST(World, ACameraTakesNoImageForWhichThereIsNoRoom) {
+  WorldMemory memory;
+  for (std::size_t i = 0; i < ImageStore::kStored - 1; ++i) {
+    Image one = image("i" + std::to_string(i));
+    memory.robots["rover"].images.emplace(one.id, one);
+  }
+  Flight run(flat_setup());
+  run.world.restore(memory);
+  run.command(temporal::seconds(2), execute("one", "camera", "image", {{"image", "one"}}));
+  run.advance(temporal::seconds(1000));
+  EXPECT_EQ(run.state("rover.image.one"), (temporal::State{"stored", {}}));
+  run.command(temporal::seconds(1000), execute("two", "camera", "image", {{"image", "two"}}));
+  EXPECT_EQ(run.code("two"), "data-full");
+  run.command(temporal::seconds(1001), execute("send", "radio", "send", {{"image", "i0"}}));
+  run.advance(temporal::seconds(1500));
+  run.command(temporal::seconds(1500), execute("three", "camera", "image", {{"image", "two"}}));
+  run.advance(temporal::seconds(1600));
+  EXPECT_EQ(run.state("rover.image.two"), (temporal::State{"stored", {}}));
 }
 
 TEST(ImageStore, AnImageThatIsTakenAgainIsNotSentAndNotForgotten) {
