@@ -37,7 +37,7 @@ def parse() -> argparse.Namespace:
     parser.add_argument("--bin", type=Path, default=ROOT / "build/release/bin")
     parser.add_argument("--out", type=Path, default=Path("endurance.jsonl"), help="one line for each day is appended here")
     parser.add_argument("--heaptrack", default="", metavar="SERVICE,…",
-                        help="record what these allocate, in OUT.SERVICE.heap, for heap.py")
+                        help="record what these allocate, in OUT.SERVICE.heap and OUT.programs, for heap.py")
     parser.add_argument("--report", type=Path, metavar="FILE", help="print the table of an earlier flight and end")
     return parser.parse_args()
 
@@ -74,7 +74,8 @@ def make_mission(options: argparse.Namespace, folder: Path) -> None:
 
 
 def with_heaptrack(options: argparse.Namespace, services: list[str], folder: Path) -> Path:
-    """Returns a folder of programs, of which `services` record what they allocate."""
+    """Returns a folder of programs, of which `services` record what they allocate. heap.py looks there for names."""
+    shutil.rmtree(folder.parent, ignore_errors=True)
     folder.mkdir(parents=True)
     (folder.parent / "lib").symlink_to((options.bin / "../lib").resolve())
     for program in options.bin.iterdir():
@@ -175,7 +176,7 @@ def main() -> int:
     make_mission(options, work / "mission")
     run = work / "run"
     recorded = [name for name in options.heaptrack.split(",") if name]
-    programs = with_heaptrack(options, recorded, work / "programs/bin") if recorded else options.bin
+    programs = with_heaptrack(options, recorded, Path(f"{options.out}.programs/bin").resolve()) if recorded else options.bin
     command = [programs / "roci-launch", work / "mission", "--scenario", "endurance", "--dds", options.dds, "--seed", options.seed,
                "--speed", "max", "--headless", "--json", "--run-folder", run, *(["--standby"] if options.standby else [])]
     days: list[dict] = []
