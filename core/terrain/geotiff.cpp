@@ -16,7 +16,7 @@
 namespace roci::terrain {
 namespace {
 
-constexpr int kMaxSide = 16384;
+constexpr int kMaxRasterSide = 16384;
 constexpr double kSame = 1e-6;  // relative difference of sides up to which a pixel is square
 
 struct Closes {
@@ -33,9 +33,9 @@ class Quiet {
   Quiet& operator=(const Quiet&) = delete;
 };
 
-class Reader {
+class RasterReader {
  public:
-  explicit Reader(const std::filesystem::path& file) : name_(file.string()) {
+  explicit RasterReader(const std::filesystem::path& file) : name_(file.string()) {
     std::error_code ignored;
     if (!std::filesystem::is_regular_file(file, ignored)) {
       fail("cannot open the GeoTIFF; check the path and the permissions");
@@ -51,9 +51,10 @@ class Reader {
   ElevationModel read() {
     const int columns = dataset_->GetRasterXSize();
     const int rows = dataset_->GetRasterYSize();
-    if (columns > kMaxSide || rows > kMaxSide) {
+    if (columns > kMaxRasterSide || rows > kMaxRasterSide) {
       fail("has " + std::to_string(columns) + " x " + std::to_string(rows) + " pixels, more than " +
-           std::to_string(kMaxSide) + " a side; cut it (gdal_translate -srcwin) or make it coarser (-tr)");
+           std::to_string(kMaxRasterSide) +
+           " a side; cut it (gdal_translate -srcwin) or make it coarser (-tr)");
     }
     if (dataset_->GetRasterCount() != 1) {
       fail("has " + std::to_string(dataset_->GetRasterCount()) +
@@ -145,7 +146,7 @@ class Reader {
 
 ElevationModel read_geotiff(const std::filesystem::path& file) {
   const Quiet quiet;
-  return Reader(file).read();
+  return RasterReader(file).read();
 }
 
 }  // namespace roci::terrain
