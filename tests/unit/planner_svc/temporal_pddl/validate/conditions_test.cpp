@@ -120,5 +120,14 @@ TEST(Conditions, LogicOfConditions) {
   EXPECT_FALSE(holds("(= x y)"));
 }
 
+TEST(Conditions, WhatTimedLiteralsDeleteGoesBeforeWhatTheyAddAtThatTime) {
+  const std::string domain =
+      "(:requirements :timed-initial-literals) (:predicates (open) (sent))"
+      "(:action send :parameters () :precondition (open) :effect (sent))";
+  for (const char* init : {"(at 3 (open)) (at 3 (not (open)))", "(at 3 (not (open))) (at 3 (open))"})
+    EXPECT_EQ(check_kinds({domain, "(:init " + std::string(init) + ") (:goal (sent))", ""}, "4: (send)"), "")
+        << init;
+}
+
 }  // namespace
 }  // namespace roci::planner::temporal_pddl::validate
