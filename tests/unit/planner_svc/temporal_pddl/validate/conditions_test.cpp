@@ -120,6 +120,17 @@ TEST(Conditions, LogicOfConditions) {
   EXPECT_FALSE(holds("(= x y)"));
 }
 
+TEST(Conditions, TimedLiteralsAtTimeZeroArePartOfTheInitialState) {
+  const std::string domain =
+      "(:requirements :timed-initial-literals) (:predicates (open) (sent))"
+      "(:action send :parameters () :precondition (open) :effect (sent))";
+  for (const char* init : {"(at 0 (open))", "(at 0 (open)) (at 0 (not (open)))"})
+    EXPECT_EQ(check_kinds({domain, "(:init " + std::string(init) + ") (:goal (sent))", ""}, "0: (send)"), "")
+        << init;
+  EXPECT_EQ(check_kinds({domain, "(:init (open) (at 0 (not (open)))) (:goal (sent))", ""}, "0: (send)"),
+            "condition@0.000");
+}
+
 TEST(Conditions, WhatTimedLiteralsDeleteGoesBeforeWhatTheyAddAtThatTime) {
   const std::string domain =
       "(:requirements :timed-initial-literals) (:predicates (open) (sent))"
