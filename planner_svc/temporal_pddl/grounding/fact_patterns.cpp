@@ -38,6 +38,13 @@ bool Patterns::within_reach(const Pattern& pattern) const {
   return false;
 }
 
+bool Patterns::comes_with_time(const Pattern& pattern) const {
+  return std::ranges::any_of(known_.static_model.timed_atoms(), [&](const lifted::TimedAtom& timed) {
+    return timed.predicate == pattern.predicate && timed.negated == pattern.negated &&
+           pattern.fits(timed.objects);
+  });
+}
+
 bool Patterns::any_fits(const std::vector<std::uint32_t>& atoms, const Pattern& pattern) const {
   return std::ranges::any_of(atoms, [&](std::uint32_t atom) {
     return known_.model.atoms.symbol(atom) == pattern.predicate.value &&

@@ -39,6 +39,8 @@ class Patterns {
   Pattern of(instantiation::GroundLiteral literal) const;
   /// Returns whether something that fits holds at first, or is reached if nothing were ever deleted.
   bool within_reach(const Pattern& pattern) const;
+  /// Returns whether a timed literal brings about something that fits.
+  bool comes_with_time(const Pattern& pattern) const;
   /// Returns whether one of the atoms fits.
   bool any_fits(const std::vector<std::uint32_t>& atoms, const Pattern& pattern) const;
 

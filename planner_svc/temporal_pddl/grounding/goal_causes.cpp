@@ -67,7 +67,7 @@ class Diagnosis {
 
   // Returns whether it is out of reach; then it is to be explained.
   bool want(Pattern pattern, const std::string& by) {
-    if (patterns_.within_reach(pattern)) return false;
+    if (patterns_.within_reach(pattern) || patterns_.comes_with_time(pattern)) return false;
     if (seen_.insert(pattern).second) wanted_.push_back({std::move(pattern), by});
     return true;
   }
@@ -126,20 +126,24 @@ class Diagnosis {
     for (const auto* condition :
          {&action.at_start, &action.over_all, &action.at_end, &effect.start_condition, &effect.end_condition})
       collect_lifted_parts(*condition, parts);
-    bool blocked = false;
+    bool blocked = false, has_windows = false;
     for (const LiftedFormula* part : parts) {
       const bool positive = part->kind == LiftedFormula::Kind::atom;
       if (!positive && part->kind != LiftedFormula::Kind::not_atom) continue;
       if (changes_at_start(action, part->atom.predicate)) continue;
       const auto objects = objects_of(part->atom.arguments, binding);
-      blocked = want({part->atom.predicate, {objects.begin(), objects.end()}, !positive}, name) || blocked;
+      Pattern pattern{part->atom.predicate, {objects.begin(), objects.end()}, !positive};
+      has_windows = has_windows || patterns_.comes_with_time(pattern);
+      blocked = want(std::move(pattern), name) || blocked;
     }
     for (const std::string& lack : MissingValues(known_).of(action, parts, binding, name)) {
       tell(lack);
       blocked = true;
     }
     if (!blocked && !action.layer && !has_instance(action, binding))
-      tell("no choice of objects meets all conditions of " + name + " at once");
+      tell("no choice of objects meets all conditions of " + name + " at once" +
+           (action.durative ? ", those on its duration included" : "") +
+           (has_windows ? ", while timed literals let it run" : ""));
   }
 
   static bool changes_at_start(const LiftedAction& action, PredicateId predicate) {

@@ -100,7 +100,10 @@ std::string GoalTest::failure_reason(std::size_t states, bool cut) const {
   const std::string tried = "all " + std::to_string(states) +
                             " states that time, numbers and conditions allow were tried" +
                             (cut ? ", but for those that provably lead nowhere; " : "; ");
-  return tried + (never.empty() ? "each goal can be reached, but not all of them together"
+  const std::string late = has_openings_ ? "; what a timed literal brings about for a goal counts only if an "
+                                           "action starts or ends then or later"
+                                         : "";
+  return tried + (never.empty() ? "each goal can be reached, but not all of them together" + late
                                 : "never reached:" + never);
 }
 

@@ -8,6 +8,12 @@ namespace roci::planner::temporal_pddl::search {
 
 using task::Action, task::FactId, task::SnapId, task::SnapKind, task::StateView;
 
+namespace {
+
+constexpr int kMostTimedSteps = 4;  // that are taken for the sake of one start
+
+}  // namespace
+
 bool Lookahead::follow(const PlanPrefix& from, std::span<const SnapId> relaxed_plan, bool careful,
                        Successor& last) {
   careful_ = careful;
@@ -20,7 +26,8 @@ bool Lookahead::follow(const PlanPrefix& from, std::span<const SnapId> relaxed_p
   for (const SnapId snap : relaxed_plan) (waits(snap) ? waiting_ : starts_).push_back(snap);
   std::ranges::fill(uses_, 0);
   for (const SnapId start : starts_) count_uses(start, 1);
-  while (take_starts(last) || take_one_harmful_start(last) || take_one_that_waits(last)) {
+  while (take_starts(last) || take_one_harmful_start(last) || take_one_that_waits(last) ||
+         take_start_after_timed_steps(last)) {
   }
   return last.prefix.node != from.node;
 }
@@ -49,6 +56,18 @@ bool Lookahead::take_one_that_waits(Successor& last) {
   if (taken == waiting_.end()) return false;
   waiting_.erase(taken);
   return true;
+}
+
+bool Lookahead::take_start_after_timed_steps(Successor& last) {
+  if (starts_.empty() || last.prefix.timed_done == task_.timed_steps.size()) return false;
+  before_timed_ = last;
+  for (int i = 0; i < kMostTimedSteps && last.prefix.timed_done < task_.timed_steps.size(); ++i) {
+    failures_left_ = starts_.size() + 1;
+    if (!take(task_.timed_steps[last.prefix.timed_done].snap, last)) break;
+    if (take_starts(last) || take_one_harmful_start(last)) return true;
+  }
+  last = before_timed_;
+  return false;
 }
 
 bool Lookahead::take_start(SnapId start, Successor& last) {

@@ -17,10 +17,12 @@ class Lookahead {
       : task_(task), space_(space), uses_(task.fact_names.size(), 0) {}
 
   /// Takes from the plan `from`, whose node is stored, what of the relaxed plan can be taken, in its order
-  /// and again as long as anything can; ends and timed literals come only where no start can. Every state on
-  /// the way is stored, and the last one is put in `last`, which is not `from`'s own. If `careful`, what undoes a fact
-  /// that holds and that another action still to be taken needs, and keeps, waits until nothing else can be taken; so
-  /// whoever leaves a place has done what was to be done there. Returns false if nothing can be taken.
+  /// and again as long as anything can; ends and timed literals come only where no start can. Where nothing can, the
+  /// next timed literals and values are taken if a start can follow them, which was too early for its conditions or
+  /// too late for a number that it reads. Every state on the way is stored, and the last one is put in `last`, which
+  /// is not `from`'s own. If `careful`, what undoes a fact that holds and that another action still to be taken needs,
+  /// and keeps, waits until nothing else can be taken; so whoever leaves a place has done what was to be done there.
+  /// Returns false if nothing can be taken.
   bool follow(const PlanPrefix& from, std::span<const task::SnapId> relaxed_plan, bool careful,
               Successor& last);
 
@@ -29,6 +31,7 @@ class Lookahead {
   bool take_starts(Successor& last);
   bool take_one_harmful_start(Successor& last);
   bool take_one_that_waits(Successor& last);
+  bool take_start_after_timed_steps(Successor& last);
   bool take_start(task::SnapId start, Successor& last);
   bool take(task::SnapId snap, Successor& last);
   const task::Action& action_of(task::SnapId start) const { return task_.actions[task_.snaps[start].action]; }
@@ -38,6 +41,7 @@ class Lookahead {
   const task::Task& task_;
   StateSpace& space_;
   bool careful_ = true;
+  Successor before_timed_;
   std::size_t failures_left_ = 0;               // steps tried in vain, each as costly as one taken
   std::vector<task::SnapId> starts_, waiting_;  // still to be taken
   task::IdVector<task::FactId, int> uses_;      // how many of starts_ need the fact and do not undo it

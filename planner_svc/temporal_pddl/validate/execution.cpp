@@ -37,6 +37,12 @@ void Execution::happen(std::span<const Event> events, bool crowded) {
     check_interference(occurrence);
     recent_.push_back(std::move(occurrence));
   }
+  // What timed literals delete at a time goes before what they add, as in the effects of one action.
+  std::stable_partition(recent_.begin() + static_cast<std::ptrdiff_t>(before), recent_.end(),
+                        [](const Occurrence& occurrence) {
+                          return occurrence.event.kind == EventKind::timed_literal &&
+                                 !occurrence.footprint.changes.deleted.empty();
+                        });
   for (std::size_t i = before; i < recent_.size(); ++i) {
     std::string fluent;
     if (apply(recent_[i].footprint.changes, state_, fluent)) continue;

@@ -103,6 +103,17 @@ const std::vector<const pddl::DerivedPredicate*>& Model::rules(const std::string
 State Model::initial_state() const {
   State state;
   for (const pddl::Atom& fact : problem_.facts) state.facts.insert(pddl::print(fact));
+  for (const bool negated : {true, false}) {
+    for (const pddl::TimedLiteral& timed : problem_.timed_literals) {
+      if (timed.time > 0 || timed.literal.negated != negated) continue;
+      const std::string fact = pddl::print(timed.literal.atom);
+      if (negated) {
+        state.facts.erase(fact);
+      } else {
+        state.facts.insert(fact);
+      }
+    }
+  }
   for (const pddl::InitialValue& initial : problem_.values) {
     state.values[pddl::print(initial.fluent)] = initial.value;
   }

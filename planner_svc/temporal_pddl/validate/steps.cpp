@@ -94,7 +94,8 @@ std::vector<Event> schedule(const std::vector<pddl::PlanStep>& plan, const std::
     events.push_back({pddl::Microseconds(std::llround(seconds * 1e6)), kind, index});
   };
   for (std::size_t i = 0; i < problem.timed_literals.size(); ++i) {
-    add_timed(problem.timed_literals[i].time, EventKind::timed_literal, i);
+    if (problem.timed_literals[i].time > 0)  // else it is part of the initial state
+      add_timed(problem.timed_literals[i].time, EventKind::timed_literal, i);
   }
   for (std::size_t i = 0; i < problem.timed_values.size(); ++i) {
     add_timed(problem.timed_values[i].time, EventKind::timed_value, i);

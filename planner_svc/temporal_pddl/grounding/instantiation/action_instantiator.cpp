@@ -32,11 +32,14 @@ void normalise(GroundEffects& effects) {
   effects.deletes = std::move(deletes);
 }
 
+// What lasts longer lasts this long: sums of a few such times still have a number, and no plan can tell them.
+constexpr Duration kLongest{std::int64_t{1'000'000'000'000'000'000}};
+
 // Rounds to microseconds so that no allowed duration is lost by more than the rounding of the numbers
 // themselves.
 Duration microseconds(double seconds, double (*round)(double)) {
-  constexpr double kLargest = 9e18;
-  const double scaled = seconds * 1e6;
+  constexpr auto kLargest = static_cast<double>(kLongest.count());
+  const double scaled = std::max(seconds * 1e6, -kLargest);
   if (scaled >= kLargest) return no_bound;
   const double nearest = std::round(scaled);
   return Duration(static_cast<std::int64_t>(std::abs(scaled - nearest) < 1e-3 ? nearest : round(scaled)));
@@ -112,6 +115,7 @@ bool ActionInstantiator::set_duration(const LiftedAction& action, const Binding&
       ground.max_duration = std::min(ground.max_duration, microseconds(bound->constant, std::floor));
     }
   }
+  ground.min_duration = std::min(ground.min_duration, kLongest);
   return ground.min_duration <= ground.max_duration;
 }
 

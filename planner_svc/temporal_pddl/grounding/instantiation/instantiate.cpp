@@ -97,7 +97,11 @@ TupleTable touched_atoms(const std::vector<LiftedAction>& actions, const StaticM
   return result;
 }
 
-Duration from_seconds(double seconds) { return Duration(std::llround(seconds * 1e6)); }
+// No plan can tell a time after kLatest, so that all of these count as that one.
+Duration from_seconds(double seconds) {
+  constexpr double kLatest = 1e12;
+  return Duration(std::llround(std::min(seconds, kLatest) * 1e6));
+}
 
 void add_timed(const pddl::Problem& problem, const StaticModel& static_model,
                const Reachability& reachability, FormulaGrounder& formulas, GroundModel& model) {

@@ -66,5 +66,31 @@ TEST(FailureReasons, AWindowThatIsShorterThanTheAction) {
       HasSubstr("(see a) takes 12.000 s, its longest window is 9.500 s: 2.500 s too short"));
 }
 
+TEST(FailureReasons, AWindowThatIsTooShortWithItsSeparations) {
+  EXPECT_THAT(
+      why(R"((:requirements :durative-actions :timed-initial-literals) (:predicates (lit) (seen))
+    (:durative-action see :parameters () :duration (= ?duration 3)
+      :condition (and (at start (lit)) (over all (lit)) (at end (lit))) :effect (at end (seen))))",
+          "(:init (at 1 (lit)) (at 4 (not (lit)))) (:goal (seen))"),
+      ::testing::AllOf(HasSubstr("all conditions of (see) at once, those on its duration included, while "
+                                 "timed literals let it run"),
+                       ::testing::Not(HasSubstr("never true"))));
+}
+
+TEST(FailureReasons, ADurationThatHasNoValue) {
+  EXPECT_THAT(why(R"((:requirements :durative-actions :numeric-fluents) (:predicates (g)) (:functions (t))
+    (:durative-action a :parameters () :duration (= ?duration (t)) :effect (at end (g))))",
+                  "(:init (= (t) -3)) (:goal (g))"),
+              HasSubstr("all conditions of (a) at once, those on its duration included;"));
+}
+
+TEST(FailureReasons, AGoalThatOnlyATimedLiteralBringsAboutAfterAllActions) {
+  EXPECT_THAT(
+      why(R"((:requirements :timed-initial-literals) (:predicates (p) (g) (night))
+    (:action a :parameters () :precondition (p) :effect (and (not (p)) (g))))",
+          "(:init (p) (at 5 (not (p))) (at 20 (night))) (:goal (and (g) (night)))"),
+      HasSubstr("what a timed literal brings about for a goal counts only if an action starts or ends"));
+}
+
 }  // namespace
 }  // namespace roci::planner::temporal_pddl

@@ -124,5 +124,51 @@ TEST(LookaheadSearch, GoesAllTheWayWithOneEvaluation) {
   EXPECT_EQ(testing::solved(made, step_by_step).statistics.evaluated, kRooms - 1u);
 }
 
+// A way through 30 rooms, of which timed literals or values let only a part be gone before them.
+testing::Model way(const std::string& condition, const std::string& duration, const std::string& timed) {
+  std::string objects = "r0", next;
+  for (int i = 1; i < 30; ++i) {
+    objects += " r" + std::to_string(i);
+    next += " (next r" + std::to_string(i - 1) + " r" + std::to_string(i) + ")";
+  }
+  return testing::model(
+      "(:requirements :durative-actions :numeric-fluents :negative-preconditions :timed-initial-literals)"
+      "(:predicates (at ?r) (next ?a ?b) (storm)) (:functions (wind))"
+      "(:durative-action go :parameters (?a ?b) :duration (= ?duration " +
+          duration + ") :condition (and (at start (at ?a)) (over all (next ?a ?b)) " + condition +
+          ") :effect (and (at start (not (at ?a))) (at end (at ?b))))",
+      "(:objects " + objects + ") (:init (at r0) (= (wind) 0)" + next + timed + ") (:goal (at r29))");
+}
+
+TEST(LookaheadSearch, GoesOnAfterTimedValuesThatItsStepsReadTooLateBefore) {
+  const testing::Model made = way("", "(+ 2 (wind))", "(at 5 (= (wind) 2)) (at 21 (= (wind) 1))");
+  const Result far = testing::solved(made);
+  testing::expect_valid(made, far);
+  EXPECT_EQ(far.statistics.evaluated, 1u);
+}
+
+TEST(LookaheadSearch, LeavesTimedLiteralsAloneThatHelpNoStart) {
+  const Task task =
+      testing::grounded(way("(over all (not (storm)))", "2", "(at 50 (storm)) (at 90 (not (storm)))")).task;
+  StateSpace space(task, Duration(1000), ActionCompression::where_safe);
+  Successor first, last;
+  first.state = task.initial_state;
+  space.add(NodeId(), first);
+  const SnapId go = task.actions[testing::action(task, "(go r0 r1)")].start;
+  const SnapId not_from_here = task.actions[testing::action(task, "(go r8 r9)")].start;
+  ASSERT_TRUE(Lookahead(task, space).follow(first.prefix, std::vector{not_from_here, go}, true, last));
+  EXPECT_EQ(last.prefix.timed_done, 0u);
+  EXPECT_TRUE(task.layout.holds(last.state, testing::fact(task, "(at r1)")));
+}
+
+TEST(LookaheadSearch, GoesOnAfterTimedLiteralsThatItsStepsHaveToWaitFor) {
+  const testing::Model made =
+      way("(over all (not (storm)))", "2",
+          "(at 5 (storm)) (at 9 (not (storm))) (at 30 (storm)) (at 35 (not (storm)))");
+  const Result far = testing::solved(made);
+  testing::expect_valid(made, far);
+  EXPECT_EQ(far.statistics.evaluated, 1u);
+}
+
 }  // namespace
 }  // namespace roci::planner::temporal_pddl

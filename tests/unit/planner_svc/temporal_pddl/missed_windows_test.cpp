@@ -73,5 +73,18 @@ TEST(MissedWindows, ATooEarlyWindowIsProvedAtOnce) {
             "12.000 s: 18.000 s too late");
 }
 
+TEST(Windows, OneThatEndsWhereTheNextBeginsHoldsAfterThatWhateverStandsFirst) {
+  for (const char* changes : {"(at 3 (lit)) (at 3 (not (lit)))", "(at 3 (not (lit))) (at 3 (lit))"}) {
+    const testing::Model made = testing::model(
+        R"((:requirements :durative-actions :timed-initial-literals) (:predicates (lit) (seen))
+    (:durative-action see :parameters () :duration (= ?duration 4)
+      :condition (and (at start (lit)) (over all (lit))) :effect (at end (seen))))",
+        std::string("(:init (lit) ") + changes + " (at 8 (not (lit)))) (:goal (seen))");
+    const Result result = testing::solved(made);
+    ASSERT_EQ(result.verdict, Verdict::solved) << changes << result.reason;
+    testing::expect_valid(made, result);
+  }
+}
+
 }  // namespace
 }  // namespace roci::planner::temporal_pddl

@@ -109,6 +109,29 @@ TEST_F(RociPlanInput, WhatIsNotSupportedEndsWithCodeThree) {
               AllOf(HasSubstr("x:2:8: error: preferences"), HasSubstr("x:2:46: error: preferences")));
 }
 
+TEST_F(RociPlanInput, TimesThatNoPlanCanTellAreNotSupported) {
+  const std::string head =
+      "(define (domain d) (:requirements :durative-actions :timed-initial-literals)"
+      "(:predicates (p) (open)) ";
+  const std::string closed = "(define (problem x) (:domain d) (:init) (:goal (p)))";
+  const std::string opens_late = "(define (problem x) (:domain d) (:init (at 1e14 (open))) (:goal (p)))";
+  const std::pair<std::string, std::string> cases[] = {
+      {"(:durative-action a :duration (= ?duration 2e9) :effect (at end (p)))", closed},
+      {"(:durative-action a :duration (>= ?duration 1e15) :effect (at end (p)))", closed},
+      {"(:action a :precondition (open) :effect (p))", opens_late}};
+  for (const auto& [action, problem] : cases) {
+    SCOPED_TRACE(action);
+    write("d", head + action + ")");
+    write("x", problem);
+    EXPECT_EQ(run("d x"), 3);
+    EXPECT_THAT(read("out"), IsEmpty());
+    EXPECT_THAT(read("err"), AllOf(HasSubstr("unsupported: "), HasSubstr("use a greater unit of time"),
+                                   HasSubstr("is out of range (0 to 1000000000 seconds)")));
+    EXPECT_EQ(run("d x --json"), 3);
+    EXPECT_FALSE(nlohmann::json::parse(read("out")).contains("plan"));
+  }
+}
+
 TEST_F(RociPlanInput, ParseOnlyEndsBeforePlanning) {
   EXPECT_EQ(run_departure("comma", "--parse-only"), 0);
   EXPECT_THAT(read("out"), IsEmpty());

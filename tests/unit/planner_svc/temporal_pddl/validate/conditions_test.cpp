@@ -120,5 +120,25 @@ TEST(Conditions, LogicOfConditions) {
   EXPECT_FALSE(holds("(= x y)"));
 }
 
+TEST(Conditions, TimedLiteralsAtTimeZeroArePartOfTheInitialState) {
+  const std::string domain =
+      "(:requirements :timed-initial-literals) (:predicates (open) (sent))"
+      "(:action send :parameters () :precondition (open) :effect (sent))";
+  for (const char* init : {"(at 0 (open))", "(at 0 (open)) (at 0 (not (open)))"})
+    EXPECT_EQ(check_kinds({domain, "(:init " + std::string(init) + ") (:goal (sent))", ""}, "0: (send)"), "")
+        << init;
+  EXPECT_EQ(check_kinds({domain, "(:init (open) (at 0 (not (open)))) (:goal (sent))", ""}, "0: (send)"),
+            "condition@0.000");
+}
+
+TEST(Conditions, WhatTimedLiteralsDeleteGoesBeforeWhatTheyAddAtThatTime) {
+  const std::string domain =
+      "(:requirements :timed-initial-literals) (:predicates (open) (sent))"
+      "(:action send :parameters () :precondition (open) :effect (sent))";
+  for (const char* init : {"(at 3 (open)) (at 3 (not (open)))", "(at 3 (not (open))) (at 3 (open))"})
+    EXPECT_EQ(check_kinds({domain, "(:init " + std::string(init) + ") (:goal (sent))", ""}, "4: (send)"), "")
+        << init;
+}
+
 }  // namespace
 }  // namespace roci::planner::temporal_pddl::validate

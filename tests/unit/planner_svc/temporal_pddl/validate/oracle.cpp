@@ -65,13 +65,18 @@ std::set<std::string> judge(const SmallCase& small, int epsilon) {
   std::vector<Footprint> footprints;
   std::set<int> broken;
   FactSet facts = small.initial;
+  for (const SmallTimedFact& fact : small.timed_facts) {  // those at 0 are part of the initial state
+    if (fact.time > 0) continue;
+    facts &= ~(FactSet{1} << fact.fact);
+    if (fact.value) facts |= FactSet{1} << fact.fact;
+  }
   int number = 0;
   for (int now = 0; now <= last; ++now) {
     std::vector<Snap> snaps;
     for (std::size_t i = 0; i < timed.size(); ++i) {
       const SmallTimedFact& fact = small.timed_facts[i];
       (fact.value ? timed[i].adds : timed[i].deletes) = FactSet{1} << fact.fact;
-      if (fact.time == now) snaps.push_back({now, -1, &timed[i]});
+      if (fact.time == now && now > 0) snaps.push_back({now, -1, &timed[i]});
     }
     for (int i = 0; i < static_cast<int>(small.plan.size()); ++i) {
       const SmallStep& step = small.plan[i];
