@@ -159,8 +159,13 @@ temporal::Duration Delivery::longest(model::TaskIndex task, Time start,
   return lasting(task, left_for(start, others, values), values);
 }
 
+// Returns the joules that a downlink may take that is the only one of its sol.
+double Delivery::limit_alone_j(const model::Values& values) const {
+  return std::min(rules_.sol_limit_j(values), rules_.downlink_limit_j(values));
+}
+
 temporal::Duration Delivery::longest_alone(model::TaskIndex task, const model::Values& values) const {
-  return lasting(task, std::min(rules_.sol_limit_j(values), rules_.downlink_limit_j(values)), values);
+  return lasting(task, limit_alone_j(values), values);
 }
 
 temporal::Duration Delivery::lasting(model::TaskIndex task, double joules,
@@ -178,8 +183,7 @@ bool Delivery::permits(model::TaskIndex task, Time start, temporal::Duration len
 
 bool Delivery::permits_alone(model::TaskIndex task, temporal::Duration length,
                              const model::Values& values) const {
-  return !exceeds(Rules::joules(rules_.window({task, Time{0}, length}, values)),
-                  std::min(rules_.sol_limit_j(values), rules_.downlink_limit_j(values)));
+  return !exceeds(Rules::joules(rules_.window({task, Time{0}, length}, values)), limit_alone_j(values));
 }
 
 std::set<std::uint32_t> Delivery::overdrawn_sols(std::span<const search::PlannedDownlink> downlinks,

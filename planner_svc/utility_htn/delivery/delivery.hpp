@@ -167,6 +167,7 @@ class Delivery {
   std::vector<std::string> sent_by(const search::PlannedDownlink& downlink, const Question& question,
                                    const downlink::Window& left) const;
   double spent_in(std::uint32_t sol) const;
+  double limit_alone_j(const model::Values& values) const;
   double left_for(temporal::Time start, std::span<const search::PlannedDownlink> others,
                   const model::Values& values) const;
   temporal::Duration lasting(model::TaskIndex task, double joules, const model::Values& values) const;
