@@ -35,9 +35,9 @@ FlexiblePlan nothing_planned(std::uint32_t version) {
 class SentDownlinksTest : public ::testing::Test {
  protected:
   std::vector<std::string> faults(const FlexiblePlan& plan, const FlexiblePlan& before,
-                                  const temporal::Progress& progress) {
+                                  const temporal::Progress& progress, Time now = 160s) {
     engine::Request situation;
-    situation.origin = 160s;
+    situation.origin = now;
     situation.state["battery"] = temporal::Value{900.0};
     const engine::CheckedPlan checked{situation, {}, plan, &before, &progress};
     sent_.take(network_, checked);
@@ -70,6 +70,22 @@ TEST_F(SentDownlinksTest, CountForTheirSolWhenTheirChainHasLeftThePlan) {
   network_.tasks.insert(network_.tasks.begin(), network_.tasks.front());
   network_.tasks.front().id = "of a network that replaces it";
   EXPECT_EQ(network_.tasks[sent_.steps(network_).front().task].id, "send_view");
+}
+
+// A sol of this network lasts 200 s, and could be measured as one of 300 s.
+TEST_F(SentDownlinksTest, AreForgottenWhenTheLongestSolSinceTheirStartIsOver) {
+  network_.parameters.push_back({"sol_s", 200, 1, 300});
+  FlexiblePlan first = nothing_planned(1);
+  add(first, "image", 1, 0, 50s, 50s, CommitState::committed);
+  add(first, "send_view", 1, 1, 100s, 20s, CommitState::committed);
+  const FlexiblePlan second = nothing_planned(2);
+  const temporal::Progress progress{{"image#1.0", {ActivityState::succeeded, 50s, 100s}},
+                                    {"send_view#1.1", {ActivityState::succeeded, 100s, 120s}}};
+  faults(second, first, progress);
+  faults(second, second, {}, 399s);
+  EXPECT_EQ(sent_.steps(network_).size(), 1U);
+  faults(second, second, {}, 400s);
+  EXPECT_TRUE(sent_.steps(network_).empty());
 }
 
 }  // namespace
