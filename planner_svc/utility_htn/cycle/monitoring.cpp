@@ -8,7 +8,7 @@
 namespace roci::planner::utility_htn::cycle {
 
 using temporal::Duration, temporal::Time;
-using temporal::timelines::Index;
+using temporal::timelines::Constraint, temporal::timelines::Index;
 
 namespace {
 
@@ -90,20 +90,23 @@ void Cycle::nothing_runs(Time now) {
 // Returns whether what is expected has changed.
 bool Cycle::follow(Time now) {
   bool changed = false;
-  for (Block& one : blocks_)
-    for (std::size_t i = 0; i < one.links.size(); ++i) {
-      const Link before = one.links[i];
-      if (before.stage == Stage::committed) await_start(one, i, now);
-      if (before.stage == Stage::running && before.end <= now) {
-        // What is due just now may have ended; what is overdue has not.
-        const Time due = before.start + length(one, i);
-        if (due < now) one.links[i].end = expected(due, now);
-        if (due > now) one.links[i].end = due;  // it was expected to end with the budget, and lasts
+  // What runs goes first, since what is committed may wait for its end.
+  for (const Stage stage : {Stage::running, Stage::committed})
+    for (Block& one : blocks_)
+      for (std::size_t i = 0; i < one.links.size(); ++i) {
+        const Link before = one.links[i];
+        if (before.stage != stage) continue;
+        if (stage == Stage::committed) await_start(one, i, now);
+        if (stage == Stage::running && before.end <= now) {
+          // What is due just now may have ended; what is overdue has not.
+          const Time due = before.start + length(one, i);
+          if (due < now) one.links[i].end = expected(due, now);
+          if (due > now) one.links[i].end = due;  // it was expected to end with the budget, and lasts
+        }
+        if (one.links[i] == before) continue;
+        changed |= one.links[i].end != before.end;
+        timelines_.move(task_id(one.number, i), one.links[i].start, one.links[i].end);
       }
-      if (one.links[i] == before) continue;
-      changed |= one.links[i].end != before.end;
-      timelines_.move(task_id(one.number, i), one.links[i].start, one.links[i].end);
-    }
   return changed;
 }
 
@@ -112,7 +115,7 @@ Time Cycle::expected(Time due, Time now) const {
 }
 
 // A link starts behind the one before it. The first that is late may begin at any time,
-// and holds what it needs until then.
+// and holds what it needs until then. Tasks that set one internal state are expected in the order that was planned.
 void Cycle::await_start(Block& of, std::size_t index, Time now) {
   Link& late = of.links[index];
   const Duration length = this->length(of, index);
@@ -128,6 +131,36 @@ void Cycle::await_start(Block& of, std::size_t index, Time now) {
     late.start = free;
     late.end = std::max(late.end, free + length);
   }
+  if (const Time ready = set_before(late); ready > late.start) {
+    late.start = ready;
+    late.end = std::max(late.end, ready + length);
+  }
+}
+
+// Returns when the last task ends that is late, sets an internal state which the link needs or sets, too, and should
+// have ended before the link starts; 0 where there is none.
+Time Cycle::set_before(const Link& waiting) const {
+  const model::Task& task = network_.tasks[waiting.task];
+  const auto concerns = [&](Index timeline) {
+    return network_.timelines[timeline].is_remembered() &&
+           (std::ranges::find(task.impacts, timeline, &model::Impact::timeline) != task.impacts.end() ||
+            std::ranges::find(task.constraints, timeline, &Constraint::timeline) != task.constraints.end());
+  };
+  Time out{0};
+  for (const Block& one : blocks_)
+    for (std::size_t i = 0; i < one.links.size(); ++i) {
+      const Link& each = one.links[i];
+      const bool goes_first =
+          each.planned < waiting.planned && (each.stage == Stage::running || each.stage == Stage::committed);
+      if (!goes_first) continue;
+      const Time should_start = each.stage == Stage::running ? each.start : each.planned;
+      if (each.end <= waiting.start || should_start + length(one, i) > waiting.planned) continue;
+      for (const model::Impact& impact : network_.tasks[each.task].impacts)
+        if (impact.kind == temporal::ImpactKind::assign && impact.moment == temporal::ImpactWhen::at_end &&
+            concerns(impact.timeline))
+          out = std::max(out, each.end);
+    }
+  return out;
 }
 
 }  // namespace roci::planner::utility_htn::cycle

@@ -276,6 +276,35 @@ TEST_F(CycleTest, WhatIsCommittedIsExpectedBehindWhatHoldsItsClaim) {
   EXPECT_EQ(imaging.planned, view.links[0].start) << "what is committed stands as it was told";
 }
 
+// The view closes the site that digging opens, waits for nothing, and is committed behind the digging, which does not end.
+TEST_F(CycleTest, WhatIsCommittedIsExpectedBehindWhatSetsItsStateBefore) {
+  for (const char* id : {"dig", "image"})
+    std::erase_if(network_.tasks[task_named(network_, id)].impacts,
+                  [](const model::Impact& impact) { return impact.timeline == testing::kArm; });
+  model::Task close = network_.tasks[task_named(network_, "image")];
+  close.id = close.name = "close";
+  close.opens = 500s;
+  close.impacts = {{testing::kSite, temporal::ImpactKind::assign, temporal::ImpactWhen::at_end, {0}}};
+  network_.tasks[task_named(network_, "view")].decompositions.front().subtasks.front().task =
+      static_cast<model::TaskIndex>(network_.tasks.size());
+  network_.tasks.push_back(close);
+  network_.cycle.commit_window = 300s;
+  Cycle cycle = make();
+  cycle.run(Time{0});
+  const Block sample = block_of_request(cycle, "sample"), view = block_of_request(cycle, "view");
+  cycle.run(10s);
+  cycle.begun(task_id(sample.number, 0), sample.links[0].start);
+  ASSERT_LE(sample.links[0].end, view.links[0].start);
+  for (Time now = 20s; now <= view.links[0].start; now += 10s) cycle.run(now);
+  const Link& digging = block_of_request(cycle, "sample").links[0];
+  const Link& closing = block_of_request(cycle, "view").links[0];
+  ASSERT_EQ(closing.stage, Stage::committed);
+  ASSERT_GT(digging.end, view.links[0].start);
+  EXPECT_EQ(closing.start, digging.end);
+  EXPECT_EQ(cycle.timelines().value(testing::kSite, closing.end), 0) << "the site is closed in the end";
+  EXPECT_EQ(closing.planned, view.links[0].start) << "what is committed stands as it was told";
+}
+
 // Condemns one chain from some time on, as a signature does a sample.
 class Condemning final : public assessor::Assessor {
  public:
