@@ -96,10 +96,8 @@ bool leaves_first(const GoalRecord& one, const GoalRecord& other) {
 
 bool is_final(GoalState state) { return state != GoalState::pending && state != GoalState::planned; }
 
-std::string GoalSet::fault_of(const GoalRequest& request, temporal::Time now) const {
-  if (std::string fault = fault_of_address(request); !fault.empty()) return fault;
-  if (!is_name(request.key.id))
-    return "id '" + request.key.id + "' is not a name; use lower-case letters, digits, - and _";
+// Returns what keeps the request from being filled into its kind, which must be known and have these arguments.
+std::string GoalSet::fault_of_form(const GoalRequest& request) const {
   const auto kind = mission_->goal_kinds.find(request.kind);
   if (kind == mission_->goal_kinds.end()) {
     return "unknown goal kind '" + request.kind + "'; this mission knows: " + keys_of(mission_->goal_kinds);
@@ -115,19 +113,30 @@ std::string GoalSet::fault_of(const GoalRequest& request, temporal::Time now) co
     if (argument == ArgumentKind::text && !is_name(given->second)) {
       return "argument '" + name + "' is '" + given->second + "'; use lower-case letters, digits, - and _";
     }
-    if (argument == ArgumentKind::object) {
-      std::string fault = fault_of_object(kind->second.object_types.at(name), given->second, name);
-      if (!fault.empty()) return fault;
-    }
-    if (argument == ArgumentKind::goal) {
-      std::string fault = fault_of_reference(request, name);
-      if (!fault.empty()) return fault;
-    }
   }
   for (const auto& [name, value] : request.arguments) {
     if (!kind->second.arguments.contains(name)) {
       return "unknown argument '" + name + "'; a " + request.kind +
              " takes: " + keys_of(kind->second.arguments);
+    }
+  }
+  return "";
+}
+
+std::string GoalSet::fault_of(const GoalRequest& request, temporal::Time now) const {
+  if (std::string fault = fault_of_address(request); !fault.empty()) return fault;
+  if (!is_name(request.key.id))
+    return "id '" + request.key.id + "' is not a name; use lower-case letters, digits, - and _";
+  if (std::string fault = fault_of_form(request); !fault.empty()) return fault;
+  const GoalKind& kind = mission_->goal_kinds.at(request.kind);
+  for (const auto& [name, argument] : kind.arguments) {
+    if (argument == ArgumentKind::object) {
+      std::string fault = fault_of_object(kind.object_types.at(name), request.arguments.at(name), name);
+      if (!fault.empty()) return fault;
+    }
+    if (argument == ArgumentKind::goal) {
+      std::string fault = fault_of_reference(request, name);
+      if (!fault.empty()) return fault;
     }
   }
   for (const auto& [key, record] : records_) {
@@ -137,7 +146,7 @@ std::string GoalSet::fault_of(const GoalRequest& request, temporal::Time now) co
   }
   if (!request.utility.finite()) return "utility is not a finite number; give one, e.g. 1";
   const bool has_window = request.opens.count() != 0 || request.closes.count() != 0;
-  if (has_window && mission_->has_domain() && kind->second.window_fact.empty())
+  if (has_window && mission_->has_domain() && kind.window_fact.empty())
     return "a " + request.kind + " knows no window; leave 'opens' and 'closes' out, or give goal kind '" +
            request.kind + "' a 'window' in mission.yaml";
   if (request.closes.count() != 0 && request.closes <= std::max(request.opens, now)) {
@@ -294,8 +303,13 @@ const GoalRecord* GoalSet::merge(const GoalRecord& theirs) {
 }
 
 void GoalSet::restore(const GoalRecord& record) {
-  records_.insert_or_assign(record.request.key, record);
+  GoalRecord& restored = records_.insert_or_assign(record.request.key, record).first->second;
   next_arrival_ = std::max(next_arrival_, record.arrival + 1);
+  if (restored.state == GoalState::rejected) return;
+  const std::string fault = fault_of_form(restored.request);
+  if (fault.empty()) return;
+  restored.state = GoalState::rejected;
+  restored.reason = "it was taken once, and this mission cannot have it any more: " + fault;
 }
 
 void GoalSet::set_state(const GoalKey& key, GoalState state, std::string reason, std::uint32_t plan_version) {

@@ -119,7 +119,8 @@ class GoalSet {
   /// record if it is new or has changed; a goal that this mission cannot have is entered as rejected.
   const GoalRecord* merge(const GoalRecord& theirs);
 
-  /// Puts a goal back as the journal has it.
+  /// Puts a goal back as the journal has it; one whose kind or arguments this mission does not have is rejected, with
+  /// the reason.
   void restore(const GoalRecord& record);
 
   void set_state(const GoalKey& key, GoalState state, std::string reason, std::uint32_t plan_version = 0);
@@ -142,6 +143,7 @@ class GoalSet {
  private:
   Disposition change(GoalRecord&, const GoalRequest&, temporal::Time now);
   std::string fault_of(const GoalRequest& request, temporal::Time now) const;
+  std::string fault_of_form(const GoalRequest& request) const;
   std::string fault_of_address(const GoalRequest& request) const;
   std::string fault_of_object(const std::string& type, const std::string& given,
                               const std::string& argument) const;

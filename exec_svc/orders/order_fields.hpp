@@ -14,6 +14,8 @@ void fields(A& a, archive::Of<IssuedKey, A>& v) {
 template <class A>
 void fields(A& a, archive::Of<Order, A>& v) {
   a(v.key, v.sample, v.kind, v.target, v.content, v.choice, v.level, v.upload, v.checksum);
+  if (v.kind < OrderKind::hold || v.kind > OrderKind::command)
+    throw archive::ArchiveError("an order is of no known kind");
 }
 template <class A>
 void fields(A& a, archive::Of<OrderStatus, A>& v) {

@@ -47,7 +47,8 @@ void Reactor::restore(const std::vector<GoalRecord>& goals, std::uint32_t last_p
   MissionState& state = parts_->state;
   for (const GoalRecord& record : goals) {
     state.goals.restore(record);
-    if (record.state != GoalState::rejected) assume_unobserved(state, record.request);
+    if (state.goals.find(record.request.key)->state != GoalState::rejected)
+      assume_unobserved(state, record.request);
   }
   parts_->plan.restore_version(last_plan_version);
   if (!state.goals.open().empty()) state.want_plan("restarted with open goals");

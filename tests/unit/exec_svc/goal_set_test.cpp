@@ -40,6 +40,25 @@ TEST_F(GoalSetTest, AcceptsAndRepeatsNothing) {
   ASSERT_EQ(goals.open().size(), 1U);
 }
 
+// A journal that was damaged, or a mission that has changed since.
+TEST_F(GoalSetTest, AGoalOfTheJournalThatTheMissionCannotHaveIsRejectedAndTheOthersStay) {
+  GoalRecord record;
+  record.state = GoalState::pending;
+  record.request = photo("a");
+  goals.restore(record);
+  record.request = photo("b");
+  record.request.kind = "phovo";
+  goals.restore(record);
+  record.request = photo("c");
+  record.request.arguments.erase("x");
+  goals.restore(record);
+  ASSERT_EQ(goals.present().size(), 1U);
+  EXPECT_EQ(goals.present().front()->request.key.id, "a");
+  EXPECT_EQ(goals.find(photo("b").key)->state, GoalState::rejected);
+  EXPECT_THAT(goals.find(photo("b").key)->reason, HasSubstr("unknown goal kind 'phovo'"));
+  EXPECT_THAT(goals.find(photo("c").key)->reason, HasSubstr("argument 'x' is missing"));
+}
+
 TEST_F(GoalSetTest, EachSampleIsAnsweredOnce) {
   GoalRequest goal = photo("a");
   const auto say = [&](std::uint64_t number) {
