@@ -9,7 +9,7 @@ import sys
 from collections import Counter
 from pathlib import Path
 
-ROUNDS = 9
+ROUNDS = 27
 UNEVEN = 1.25  # the longest round by the shortest
 
 
@@ -29,25 +29,25 @@ def main(build):
     for number, line in enumerate(page.read_text(encoding="utf-8").splitlines(), 1):
         if not line or line.startswith("#"):
             continue
-        row = re.fullmatch(r"([0-2]/3|[0-8]/9) +(\d+) +(\S+)", line)
-        if not row:
-            told.append(f"{page}:{number}: no row of turn (0/3 to 2/3 or 0/9 to 8/9), seconds, name: {line}")
+        row = re.fullmatch(r"((\d+)/(3|9|27)) +(\d+) +(\S+)", line)
+        if not row or int(row[2]) >= int(row[3]):
+            told.append(f"{page}:{number}: no row of turn (0/3 to 2/3, 0/9 to 8/9 or 0/27 to 26/27), seconds, name: {line}")
             continue
-        if "(" in row[3]:
+        name = row[5]
+        if "(" in name:
             told.append(f"{page}:{number}: CTest's expressions have room for nine groups, which ./check needs: write a row for each name")
             continue
-        turn, every = map(int, row[1].split("/"))
-        for of_round in range(turn, ROUNDS, every):
-            seconds[of_round] += float(row[2])
+        for of_round in range(int(row[2]), ROUNDS, int(row[3])):
+            seconds[of_round] += float(row[4])
         # As ./check has it.
-        whole = re.compile(rf"(^|/)({row[3]})([/_](inproc|fastdds|cyclonedds|mixed))?( |$)")
-        found = [name for name in names if whole.search(name)]
+        whole = re.compile(rf"(^|/)({name})([/_](inproc|fastdds|cyclonedds|mixed))?( |$)")
+        found = [test for test in names if whole.search(test)]
         if not found:
-            told.append(f"{page}:{number}: there is no test {row[3]} outside ./check --full; name it as ctest -N does, or take the row out")
-        for name in found:
-            if name in taken:
-                told.append(f"{page}:{number}: {name} stands in line {taken[name]}, too")
-            taken[name] = number
+            told.append(f"{page}:{number}: there is no test {name} outside ./check --full; name it as ctest -N does, or take the row out")
+        for test in found:
+            if test in taken:
+                told.append(f"{page}:{number}: {test} stands in line {taken[test]}, too")
+            taken[test] = number
     if max(seconds) > UNEVEN * min(seconds):
         told.append(f"{page}: the rounds are uneven: {', '.join(f'{s:.0f} s' for s in seconds)}; move a row to a turn of the shortest")
     print("\n".join(told) or f"{len(taken)} tests take turns: {', '.join(f'{s:.0f} s' for s in seconds)}")
