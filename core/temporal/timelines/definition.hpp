@@ -63,6 +63,11 @@ struct Constraint {
   double lowest = -std::numeric_limits<double>::infinity();
   double highest = std::numeric_limits<double>::infinity();
   std::uint64_t states = 0;  ///< of kind state: bit i permits state i
+  /// Returns whether the constraint holds with a value, which of a state is its number.
+  bool admits(double value) const {
+    if (states == 0) return value >= lowest && value <= highest;
+    return value >= 0 && value < 64 && (states >> static_cast<unsigned>(value) & 1U) != 0;
+  }
   friend bool operator==(const Constraint&, const Constraint&) = default;
 };
 

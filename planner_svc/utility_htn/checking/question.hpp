@@ -80,6 +80,8 @@ struct Question {
   /// Lists what runs or has succeeded of chains that were broken off: it counts on timelines, but is no
   /// decomposition any more.
   std::vector<Step> rests{};
+  /// Lists the requests of those chains: no plan begins them anew while they last.
+  std::vector<model::TaskIndex> broken_off{};
   /// Lists downlinks that are over and stand in the plan no longer: they count for the energy of their sol.
   std::vector<Step> sent{};
   Downlinks downlinks{};

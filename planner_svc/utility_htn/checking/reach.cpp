@@ -53,8 +53,9 @@ class Reach {
   std::set<TaskIndex> run() {
     std::set<TaskIndex> left;
     for (TaskIndex task = 0; task < question_.network.tasks.size(); ++task) {
-      const bool closed = std::ranges::find(question_.closed, task) != question_.closed.end();
-      if (!question_.network.tasks[task].is_template && !closed) left.insert(task);
+      const bool open = std::ranges::find(question_.closed, task) == question_.closed.end() &&
+                        std::ranges::find(question_.broken_off, task) == question_.broken_off.end();
+      if (!question_.network.tasks[task].is_template && open) left.insert(task);
     }
     for (bool again = true; again;) {
       again = false;

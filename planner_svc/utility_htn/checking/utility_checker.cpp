@@ -49,6 +49,7 @@ std::vector<std::string> faults_of(const model::Network& network, const engine::
     question.before = std::move(before.blocks);
   }
   question.rests = std::move(version.rests);
+  question.broken_off = std::move(version.broken_off);
   std::ranges::copy_if(sent, std::back_inserter(question.sent), [&](const Step& one) {
     return !stands_in(question.rests, one) && std::ranges::none_of(question.plan, [&](const Block& block) {
       return stands_in(block.steps, one);

@@ -159,6 +159,7 @@ class Reader {
       whole = whole && block.steps[link].id == ((std::uint64_t{number} << 32U) | link);
     if (!whole) {
       out_.broken.insert(number);
+      out_.broken_off.push_back(block.request);
       bool follows = true;
       for (std::size_t link = 0; link < block.steps.size(); ++link) {
         const Step& step = block.steps[link];

@@ -14,12 +14,13 @@ namespace roci::planner::utility_htn::checking {
 /// Holds what a FlexiblePlan of the utility-driven engine says; planner_svc/utility_htn/README.md has the
 /// form.
 struct Version {
-  std::vector<Block> blocks;          ///< those of which no link has failed
-  std::set<std::uint32_t> broken;     ///< numbers of the others: what is committed of them is skipped
-  std::vector<Step> rests;            ///< what runs or has succeeded of those
-  std::set<std::uint32_t> over;       ///< numbers of those that have ended
-  model::Values values;               ///< of parameters
-  std::vector<Observation> internal;  ///< of timelines that nobody reports, as of the version
+  std::vector<Block> blocks;                 ///< those of which no link has failed
+  std::set<std::uint32_t> broken;            ///< numbers of the others: what is committed of them is skipped
+  std::vector<Step> rests;                   ///< what runs or has succeeded of those
+  std::vector<model::TaskIndex> broken_off;  ///< their requests
+  std::set<std::uint32_t> over;              ///< numbers of those that have ended
+  model::Values values;                      ///< of parameters
+  std::vector<Observation> internal;         ///< of timelines that nobody reports, as of the version
   /// Lists values of reported timelines that are expected at any time, though something else was reported last: what a
   /// task that runs by itself has begun with, such as a view of Earth, or what a command that has ended within the
   /// last interval was to bring about.

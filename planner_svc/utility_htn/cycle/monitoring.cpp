@@ -115,7 +115,7 @@ Time Cycle::expected(Time due, Time now) const {
 }
 
 // A link starts behind the one before it. The first that is late may begin at any time,
-// and holds what it needs until then. Tasks that set one internal state are expected in the order that was planned.
+// and holds what it needs until then.
 void Cycle::await_start(Block& of, std::size_t index, Time now) {
   Link& late = of.links[index];
   const Duration length = this->length(of, index);
@@ -131,35 +131,35 @@ void Cycle::await_start(Block& of, std::size_t index, Time now) {
     late.start = free;
     late.end = std::max(late.end, free + length);
   }
-  if (const Time ready = set_before(late); ready > late.start) {
+  if (const Time ready = brought_about(late); ready > late.start) {
     late.start = ready;
     late.end = std::max(late.end, ready + length);
   }
 }
 
-// Returns when the last task ends that is late, sets an internal state which the link needs or sets, too, and should
-// have ended before the link starts; 0 where there is none.
-Time Cycle::set_before(const Link& waiting) const {
-  const model::Task& task = network_.tasks[waiting.task];
-  const auto concerns = [&](Index timeline) {
-    return network_.timelines[timeline].is_remembered() &&
-           (std::ranges::find(task.impacts, timeline, &model::Impact::timeline) != task.impacts.end() ||
-            std::ranges::find(task.constraints, timeline, &Constraint::timeline) != task.constraints.end());
-  };
+// Returns when what is under way has brought about each internal state that the link needs and would not find at its
+// start; 0 where nothing is to come of that. The executive waits for what a link needs, and for nothing else.
+Time Cycle::brought_about(const Link& waiting) const {
   Time out{0};
-  for (const Block& one : blocks_)
-    for (std::size_t i = 0; i < one.links.size(); ++i) {
-      const Link& each = one.links[i];
-      const bool goes_first =
-          each.planned < waiting.planned && (each.stage == Stage::running || each.stage == Stage::committed);
-      if (!goes_first) continue;
-      const Time should_start = each.stage == Stage::running ? each.start : each.planned;
-      if (each.end <= waiting.start || should_start + length(one, i) > waiting.planned) continue;
-      for (const model::Impact& impact : network_.tasks[each.task].impacts)
-        if (impact.kind == temporal::ImpactKind::assign && impact.moment == temporal::ImpactWhen::at_end &&
-            concerns(impact.timeline))
-          out = std::max(out, each.end);
-    }
+  for (const Constraint& needed : network_.tasks[waiting.task].constraints) {
+    const bool waits =
+        needed.phase == temporal::timelines::Phase::pre &&
+        network_.timelines[needed.timeline].is_remembered() &&
+        !needed.admits(timelines_.value(needed.timeline, waiting.start, temporal::timelines::Side::between));
+    if (!waits) continue;
+    Time earliest = Time::max();
+    for (const Block& one : blocks_)
+      for (const Link& each : one.links) {
+        const bool under_way = each.stage == Stage::running || each.stage == Stage::committed;
+        if (!under_way || each.end < waiting.start) continue;
+        for (const model::Impact& impact : network_.tasks[each.task].impacts)
+          if (impact.timeline == needed.timeline && impact.moment == temporal::ImpactWhen::at_end &&
+              impact.kind == temporal::ImpactKind::assign &&
+              needed.admits(model::evaluate(impact.amount, past_.values)))
+            earliest = std::min(earliest, each.end);
+      }
+    if (earliest < Time::max()) out = std::max(out, earliest);
+  }
   return out;
 }
 

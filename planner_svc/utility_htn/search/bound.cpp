@@ -161,11 +161,7 @@ class Bound {
   // Whether the constraint does not hold now, nor ever by what is committed.
   bool broken_now(const Constraint& constraint) const {
     if (constraint.timeline >= problem_.timelines_now.size()) return false;
-    const double now = problem_.timelines_now[constraint.timeline];
-    const bool state = problem_.network.timelines[constraint.timeline].kind == Kind::state;
-    const bool holds =
-        state ? now >= 0 && now < 64 && ((constraint.states >> static_cast<unsigned>(now)) & 1U) != 0
-              : now >= constraint.lowest && now <= constraint.highest;
+    const bool holds = constraint.admits(problem_.timelines_now[constraint.timeline]);
     return !holds && std::ranges::none_of(problem_.committed, [&](const Placed& placed) {
       return changes(table_.chain(placed.chain), constraint.timeline);
     });

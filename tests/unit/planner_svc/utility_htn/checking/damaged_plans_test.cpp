@@ -202,6 +202,26 @@ TEST(DamagedPlans, ASiteThatNothingLeadsToIsPassed) {
   EXPECT_THAT(mission.faults(), IsEmpty()) << "tasks only shut it";
 }
 
+// Digging opens the lid, and what dug was broken off.
+TEST(DamagedPlans, ASiteWhoseOpeningWasBrokenOffIsPassed) {
+  SmallMission mission;
+  mission.network.subway.sites[1].value = {.constant = 0.95};
+  mission.network.timelines.push_back({"lid", temporal::timelines::Kind::state, {"shut", "open"}});
+  const auto lid = static_cast<temporal::timelines::Index>(mission.network.timelines.size() - 1);
+  for (const model::Target& target : mission.network.subway.sites[1].targets)
+    for (model::Decomposition& way : mission.network.tasks[target.task].decompositions)
+      way.when.push_back({.timeline = lid, .states = 2});
+  model::Task open;
+  open.id = open.name = "open_lid";
+  open.impacts = {{lid, temporal::ImpactKind::assign, temporal::ImpactWhen::at_end, {1}}};
+  mission.broken_off = {static_cast<model::TaskIndex>(mission.network.tasks.size())};
+  mission.network.tasks.push_back(open);
+  EXPECT_THAT(mission.faults(), IsEmpty());
+  mission.broken_off.clear();
+  EXPECT_THAT(mission.faults(), Contains(HasSubstr("site 'site_1' has the greater value and goes first")))
+      << "somebody may open it";
+}
+
 TEST(DamagedPlans, ATaskOfNoDurationAsksBeforeAndActsThen) {
   SmallMission mission;
   model::Task& uplink = mission.network.tasks[task::uplink];

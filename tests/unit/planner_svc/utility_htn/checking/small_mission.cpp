@@ -174,6 +174,7 @@ std::vector<std::string> SmallMission::faults() const {
                            .values = values,
                            .plan = plan,
                            .before = before,
+                           .broken_off = broken_off,
                            .downlinks = downlinks,
                            .observations = observations,
                            .now = seconds(30),

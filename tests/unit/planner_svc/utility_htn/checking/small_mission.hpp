@@ -28,6 +28,7 @@ struct SmallMission {
   std::vector<Observation> observations{};
   double budget = 400;
   std::vector<model::TaskIndex> closed{};
+  std::vector<model::TaskIndex> broken_off{};
 
   SmallMission();
   Block& block(model::TaskIndex request);

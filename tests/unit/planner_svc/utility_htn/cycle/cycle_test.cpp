@@ -242,19 +242,28 @@ TEST_F(CycleTest, WhatIsCommittedIsExpectedBehindWhatHoldsItsClaim) {
   EXPECT_EQ(imaging.planned, view.links[0].start) << "what is committed stands as it was told";
 }
 
-// The view closes the site that digging opens, waits for nothing, and is committed behind the digging, which does not end.
-TEST_F(CycleTest, WhatIsCommittedIsExpectedBehindWhatSetsItsStateBefore) {
-  for (const char* id : {"dig", "image"})
-    std::erase_if(network_.tasks[task_named(network_, id)].impacts,
-                  [](const model::Impact& impact) { return impact.timeline == testing::kArm; });
-  model::Task close = network_.tasks[task_named(network_, "image")];
-  close.id = close.name = "close";
-  close.opens = 500s;
-  close.impacts = {{testing::kSite, temporal::ImpactKind::assign, temporal::ImpactWhen::at_end, {0}}};
-  network_.tasks[task_named(network_, "view")].decompositions.front().subtasks.front().task =
-      static_cast<model::TaskIndex>(network_.tasks.size());
-  network_.tasks.push_back(close);
-  network_.cycle.commit_window = 300s;
+// The view closes the site, which digging opens in the end, and neither claims the arm.
+class ClosingTest : public CycleTest {
+ protected:
+  // Closing needs the site in one of the states, and a time from `opens` on.
+  void view_closes(std::uint64_t states, Time opens) {
+    for (const char* id : {"dig", "image"})
+      std::erase_if(network_.tasks[task_named(network_, id)].impacts,
+                    [](const model::Impact& impact) { return impact.timeline == testing::kArm; });
+    model::Task close = network_.tasks[task_named(network_, "image")];
+    close.id = close.name = "close";
+    close.opens = opens;
+    close.impacts = {{testing::kSite, temporal::ImpactKind::assign, temporal::ImpactWhen::at_end, {0}}};
+    close.constraints = {{.timeline = testing::kSite, .states = states}};
+    network_.tasks[task_named(network_, "view")].decompositions.front().subtasks.front().task =
+        static_cast<model::TaskIndex>(network_.tasks.size());
+    network_.tasks.push_back(close);
+    network_.cycle.commit_window = 300s;
+  }
+};
+
+TEST_F(ClosingTest, WhatIsCommittedIsExpectedWhenWhatItNeedsIsBroughtAbout) {
+  view_closes(0b10, 500s);
   Cycle cycle = make();
   cycle.run(Time{0});
   const Block sample = block_of_request(cycle, "sample"), view = block_of_request(cycle, "view");
@@ -269,6 +278,29 @@ TEST_F(CycleTest, WhatIsCommittedIsExpectedBehindWhatSetsItsStateBefore) {
   EXPECT_EQ(closing.start, digging.end);
   EXPECT_EQ(cycle.timelines().value(testing::kSite, closing.end), 0) << "the site is closed in the end";
   EXPECT_EQ(closing.planned, view.links[0].start) << "what is committed stands as it was told";
+}
+
+// Digging does not end, and the view is asked for when it should have: the site is closed yet.
+TEST_F(ClosingTest, WhatIsCommittedStartsInTimeWhereWhatItNeedsIsTakenAwayLater) {
+  view_closes(0b01, Time{0});
+  network_.parameters[1].prior = 0;  // digging takes no energy, however long
+  Cycle cycle = make();
+  for (const char* id : {"view", "idle"}) cycle.withdraw(task_named(network_, id));
+  cycle.run(Time{0});
+  const Block sample = block_of_request(cycle, "sample");
+  cycle.run(10s);
+  cycle.begun(task_id(sample.number, 0), sample.links[0].start);
+  Time now = 20s;
+  for (; block_of_request(cycle, "sample").links[0].end < now + 400s; now += 10s) cycle.run(now);
+  cycle.request(task_named(network_, "view"));
+  cycle.run(now);
+  const Block view = block_of_request(cycle, "view");
+  ASSERT_LT(view.links[0].start, block_of_request(cycle, "sample").links[0].end);
+  for (; now < view.links[0].start; now += 10s) cycle.run(now);
+  const Link& closing = block_of_request(cycle, "view").links[0];
+  ASSERT_EQ(closing.stage, Stage::committed);
+  ASSERT_GT(block_of_request(cycle, "sample").links[0].end, closing.start);
+  EXPECT_EQ(closing.start, view.links[0].start);
 }
 
 // Condemns one chain from some time on, as a signature does a sample.
