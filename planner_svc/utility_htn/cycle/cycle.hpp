@@ -121,7 +121,7 @@ class Cycle {
   bool follow(temporal::Time now);
   temporal::Time expected(temporal::Time due, temporal::Time now) const;
   void await_start(Block& of, std::size_t index, temporal::Time now);
-  temporal::Time brought_about(const Link& waiting) const;
+  temporal::Time set_before(const Link& waiting) const;
   bool consolidate(temporal::Time now);
   bool schedule(temporal::Time now, Report& report);
   bool repair(temporal::Time now, Report& report);

@@ -115,7 +115,7 @@ Time Cycle::expected(Time due, Time now) const {
 }
 
 // A link starts behind the one before it. The first that is late may begin at any time,
-// and holds what it needs until then.
+// and holds what it needs until then. Tasks that set one internal state are expected in the order that was planned.
 void Cycle::await_start(Block& of, std::size_t index, Time now) {
   Link& late = of.links[index];
   const Duration length = this->length(of, index);
@@ -131,35 +131,41 @@ void Cycle::await_start(Block& of, std::size_t index, Time now) {
     late.start = free;
     late.end = std::max(late.end, free + length);
   }
-  if (const Time ready = brought_about(late); ready > late.start) {
+  if (const Time ready = set_before(late); ready > late.start) {
     late.start = ready;
     late.end = std::max(late.end, ready + length);
   }
 }
 
-// Returns when what is under way has brought about each internal state that the link needs and would not find at its
-// start; 0 where nothing is to come of that. The executive waits for what a link needs, and for nothing else.
-Time Cycle::brought_about(const Link& waiting) const {
+// Returns when the last task ends that is late, leaves an internal state which the link sets or needs just so, and
+// should have ended before the link starts; 0 where there is none. A late task that takes away what the link needs is
+// not waited for: the executive starts the link while the state holds.
+Time Cycle::set_before(const Link& waiting) const {
+  const model::Task& task = network_.tasks[waiting.task];
+  const auto goes_behind = [&](const model::Impact& left) {
+    if (left.kind != temporal::ImpactKind::assign || left.moment != temporal::ImpactWhen::at_end ||
+        !network_.timelines[left.timeline].is_remembered())
+      return false;
+    bool concerns =
+        std::ranges::find(task.impacts, left.timeline, &model::Impact::timeline) != task.impacts.end();
+    for (const Constraint& needed : task.constraints) {
+      if (needed.timeline != left.timeline) continue;
+      if (!needed.admits(model::evaluate(left.amount, past_.values))) return false;
+      concerns = true;
+    }
+    return concerns;
+  };
   Time out{0};
-  for (const Constraint& needed : network_.tasks[waiting.task].constraints) {
-    const bool waits =
-        needed.phase == temporal::timelines::Phase::pre &&
-        network_.timelines[needed.timeline].is_remembered() &&
-        !needed.admits(timelines_.value(needed.timeline, waiting.start, temporal::timelines::Side::between));
-    if (!waits) continue;
-    Time earliest = Time::max();
-    for (const Block& one : blocks_)
-      for (const Link& each : one.links) {
-        const bool under_way = each.stage == Stage::running || each.stage == Stage::committed;
-        if (!under_way || each.end < waiting.start) continue;
-        for (const model::Impact& impact : network_.tasks[each.task].impacts)
-          if (impact.timeline == needed.timeline && impact.moment == temporal::ImpactWhen::at_end &&
-              impact.kind == temporal::ImpactKind::assign &&
-              needed.admits(model::evaluate(impact.amount, past_.values)))
-            earliest = std::min(earliest, each.end);
-      }
-    if (earliest < Time::max()) out = std::max(out, earliest);
-  }
+  for (const Block& one : blocks_)
+    for (std::size_t i = 0; i < one.links.size(); ++i) {
+      const Link& each = one.links[i];
+      const bool goes_first =
+          each.planned < waiting.planned && (each.stage == Stage::running || each.stage == Stage::committed);
+      if (!goes_first) continue;
+      const Time should_start = each.stage == Stage::running ? each.start : each.planned;
+      if (each.end <= waiting.start || should_start + length(one, i) > waiting.planned) continue;
+      if (std::ranges::any_of(network_.tasks[each.task].impacts, goes_behind)) out = std::max(out, each.end);
+    }
   return out;
 }
 

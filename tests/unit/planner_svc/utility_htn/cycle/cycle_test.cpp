@@ -262,7 +262,7 @@ class ClosingTest : public CycleTest {
   }
 };
 
-TEST_F(ClosingTest, WhatIsCommittedIsExpectedWhenWhatItNeedsIsBroughtAbout) {
+TEST_F(ClosingTest, WhatIsCommittedIsExpectedBehindWhatSetsItsStateBefore) {
   view_closes(0b10, 500s);
   Cycle cycle = make();
   cycle.run(Time{0});
