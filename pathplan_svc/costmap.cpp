@@ -212,17 +212,20 @@ bool Costmap::set_discs(const std::vector<Disc>& discs) {
   }
   const std::vector<CellState> before = std::exchange(state_, terrain_state_);
   for (const Disc& disc : discs) mark_disc(disc);
-  if (state_ == before) return false;
-  changed_.clear();
-  for (std::size_t i = 0; i < state_.size(); ++i) {
-    if (state_[i] != before[i]) changed_.push_back(i);
-  }
+  const std::vector<CellState> before_if_known = if_known_;
   if (unknown_cells_ > 0) {
     // The discs once more, over the ground as it may be.
     std::swap(state_, if_known_);
     state_ = terrain_if_known_;
     for (const Disc& disc : discs) mark_disc(disc);
     std::swap(state_, if_known_);
+  }
+  // The margin of a disc in unknown ground shows in the second layer alone, and counts for what is proved.
+  if (state_ == before && if_known_ == before_if_known) return false;
+  changed_.clear();
+  for (std::size_t i = 0; i < state_.size(); ++i) {
+    if (state_[i] != before[i] || (unknown_cells_ > 0 && if_known_[i] != before_if_known[i]))
+      changed_.push_back(i);
   }
   ++version_;
   return true;

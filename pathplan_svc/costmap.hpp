@@ -52,7 +52,8 @@ class Costmap {
   const terrain::Grid& grid() const { return grid_; }
   const RoverLimits& limits() const { return limits_; }
 
-  /// Returns a number that grows with each change of a cell, from 1 on if nothing else is said.
+  /// Returns a number that grows with each change of state() or may_be_free() of a cell, from 1 on if nothing else is
+  /// said.
   std::uint64_t version() const { return version_; }
   /// Sets the first version; it is to be called before the first change.
   void count_versions_from(std::uint64_t first) { version_ = first; }
@@ -92,9 +93,9 @@ class Costmap {
   /// Returns the roughness, from 0 for smooth to 1 for the roughest that is allowed.
   double roughness(std::size_t index) const { return roughness_[index]; }
 
-  /// Lets these discs and no others block from now on. Returns whether any cell changed, which makes a new
-  /// version. Throws std::invalid_argument for a centre that is not finite or a radius that is negative or
-  /// not finite; the map is then as before.
+  /// Lets these discs and no others block from now on. Returns whether state() or may_be_free() of any cell changed,
+  /// which makes a new version. Throws std::invalid_argument for a centre that is not finite or a radius that is
+  /// negative or not finite; the map is then as before.
   bool set_discs(const std::vector<Disc>& discs);
   /// Returns the cells that the newest version changed, by index.
   const std::vector<std::size_t>& changed_cells() const { return changed_; }

@@ -38,7 +38,7 @@ struct KeptWork {
 
 /// Finds fast drives over a map that may gain obstacles. An answer depends on the map and the two ends alone,
 /// never on earlier questions. Answers and search trees are kept; when obstacles are added, those stay that would come
-/// out the same again, and when one goes, none. One thread may use it at a time.
+/// out the same again, and when a cell becomes free, none. One thread may use it at a time.
 ///
 /// A goal must be free. A start in the margin of an obstacle (one that was seen while the rover stood there)
 /// is left by the shortest straight line to a free cell.

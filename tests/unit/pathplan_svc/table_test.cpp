@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <numbers>
 
 #include "pathplan_svc/path_planner.hpp"
@@ -38,6 +39,27 @@ void expect_same(const PathOutcome& a, const PathOutcome& b) {
   EXPECT_EQ(a.length, b.length);
   EXPECT_EQ(a.time, b.time);
   EXPECT_EQ(a.energy, b.energy);
+}
+
+terrain::Site with_occupancy(const terrain::Site& site, const std::function<terrain::Occupancy(Cell)>& says) {
+  terrain::SiteLayers layers = site.layers();
+  for (std::size_t i = 0; i < layers.occupancy.size(); ++i)
+    layers.occupancy[i] = says(site.grid().cell_at(i));
+  return {site.grid(), layers};
+}
+
+terrain::Site with_unknown(int side, const std::function<bool(Cell)>& is_unknown) {
+  return with_occupancy(made_site(side, 1.0, level, no_rocks), [&](Cell c) {
+    return is_unknown(c) ? terrain::Occupancy::unknown : terrain::Occupancy::free;
+  });
+}
+
+// A wall along one column, whose only gap is three cells of unknown ground about a row.
+terrain::Site with_wall(const terrain::Site& site, int column, int gap) {
+  return with_occupancy(site, [&](Cell c) {
+    if (c.column != column) return terrain::Occupancy::free;
+    return std::abs(c.row - gap) <= 1 ? terrain::Occupancy::unknown : terrain::Occupancy::occupied;
+  });
 }
 
 TEST(Table, LowerBoundsAreNeverAboveWhatAPathCosts) {
@@ -97,9 +119,11 @@ TEST(Table, TakesOneSearchForEachPlace) {
 
 // What is kept after obstacles come and go is what a new planner says, to the last bit.
 TEST(Table, KeepsWhatANewPlannerWouldSay) {
-  std::uint64_t kept = 0;
-  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
-    const terrain::Site site = random_site(seed, 64, 60);
+  std::uint64_t kept = 0, unknown = 0, unreachable = 0;
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    const bool walled = seed > 4;
+    const terrain::Site open = random_site(seed, 64, 60);
+    const terrain::Site site = walled ? with_wall(open, 32, 30) : open;
     PathPlanner planner(site, {}, {});
     std::mt19937_64 random(seed);
     std::vector<Point> places;
@@ -114,6 +138,8 @@ TEST(Table, KeepsWhatANewPlannerWouldSay) {
       }
       if (change == 3) {
         discs.erase(discs.begin());  // what was behind it may be better
+      } else if (walled && change == 0) {
+        discs.push_back({{32, 30}, 0.2});  // covers no middle of a cell, and closes the gap
       } else {
         discs.push_back({random_point(random, planner.map().grid()), uniform(random, 0, 3)});
       }
@@ -122,12 +148,19 @@ TEST(Table, KeepsWhatANewPlannerWouldSay) {
       fresh.set_discs(discs);
       const std::uint64_t before = planner.work().paths;
       for (const Point from : places) {
-        for (const Point to : places) expect_same(planner.path(from, to), fresh.path(from, to));
+        for (const Point to : places) {
+          const PathOutcome expected = fresh.path(from, to);
+          expect_same(planner.path(from, to), expected);
+          unknown += expected.status == PathStatus::unknown ? 1 : 0;
+          unreachable += expected.status == PathStatus::unreachable ? 1 : 0;
+        }
       }
       kept += fresh.work().paths - (planner.work().paths - before);
     }
   }
   EXPECT_GT(kept, 50U) << "most obstacles lie in nobody's way";
+  EXPECT_GT(unknown, 20U) << "through the gap";
+  EXPECT_GT(unreachable, 20U) << "while it is closed";
 }
 
 TEST(Table, AnObstacleFarAwayCostsNothing) {
@@ -233,15 +266,6 @@ TEST(Table, PathsLieWithinTheStatedBoundOfAnExactGridSearch) {
   RecordProperty("worst", std::to_string(worst));
 }
 
-terrain::Site with_unknown(int side, const std::function<bool(Cell)>& is_unknown) {
-  const terrain::Site level_ground = made_site(side, 1.0, level, no_rocks);
-  terrain::SiteLayers layers = level_ground.layers();
-  for (std::size_t i = 0; i < layers.occupancy.size(); ++i) {
-    if (is_unknown(level_ground.grid().cell_at(i))) layers.occupancy[i] = terrain::Occupancy::unknown;
-  }
-  return {level_ground.grid(), layers};
-}
-
 TEST(Table, WhatLiesBehindUnknownGroundIsNotKnownToBeUnreachable) {
   // A strip of unknown ground parts the map; the wall of discs beside it does so for good.
   PathPlanner planner(with_unknown(40, [](Cell c) { return c.column == 20; }), {}, {});
@@ -259,6 +283,23 @@ TEST(Table, WhatLiesBehindUnknownGroundIsNotKnownToBeUnreachable) {
   EXPECT_EQ(planner.cost({5, 20}, {28, 20}).status, PathStatus::goal_blocked);
   planner.set_discs({});
   EXPECT_EQ(planner.cost({5, 20}, {35, 20}).status, PathStatus::unknown);
+}
+
+// An obstacle in unknown ground shows in no cell that the rover may or may not enter, and counts for what is proved.
+TEST(Table, WhatAnObstacleInUnknownGroundCloses) {
+  PathPlanner planner(with_wall(made_site(40, 1.0, level, no_rocks), 20, 20), {}, {});
+  const Disc in_gap{{20, 20}, 0.2}, elsewhere{{8, 8}, 1};
+  const auto across = [&] { return planner.cost({5, 20}, {35, 20}).status; };
+  EXPECT_EQ(across(), PathStatus::unknown);
+  EXPECT_TRUE(planner.set_discs({in_gap})) << "the answers are other ones";
+  EXPECT_EQ(across(), PathStatus::unreachable);
+  EXPECT_TRUE(planner.set_discs({in_gap, elsewhere}));
+  EXPECT_EQ(across(), PathStatus::unreachable);
+  const std::uint64_t version = planner.map().version();
+  EXPECT_TRUE(planner.set_discs({elsewhere}));
+  EXPECT_EQ(across(), PathStatus::unknown);
+  EXPECT_EQ(planner.map().version(), version + 1);
+  EXPECT_FALSE(planner.set_discs({elsewhere}));
 }
 
 TEST(Table, UnknownGroundIsNotDrivenOver) {
