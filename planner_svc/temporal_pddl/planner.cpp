@@ -156,6 +156,7 @@ void solve(const pddl::Domain& domain, const pddl::Problem& problem, const Attem
   if (!outcome.plan) outcome = search_portfolio(context, guide, ff);
   if (outcome.plan) {
     limits.first_plan_found();
+    result.statistics.for_first_plan = result.statistics.evaluated;
     const PlanPrefix best = improved(context, std::move(*outcome.plan), guide, ff);
     result.plan = build_plan(domain, grounding, best, options, goals);
     result.verdict = Verdict::solved;
@@ -190,6 +191,7 @@ Result plan_once(const pddl::Domain& domain, const pddl::Problem& problem, const
   Result result;
   SearchLimits limits(attempt.budget, monitor);
   guarded(result, [&] { solve(domain, problem, attempt, goals, limits, result); });
+  if (!result.plan) result.statistics.for_first_plan = result.statistics.evaluated;
   result.statistics.peak_bytes = limits.peak_bytes();
   return result;
 }

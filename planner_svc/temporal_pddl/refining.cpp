@@ -93,7 +93,9 @@ class Refining {
     ++rounds_;
     touched_.clear();
     Attempt attempt{values_, call_.budget, call_.options, call_.remaining};
-    attempt.budget.evaluations -= std::min(attempt.budget.evaluations, total_.evaluated);
+    // What made cheap plans better is not what the first plan on exact values may take; beside one, all counts.
+    const std::size_t spent = best_ ? total_.evaluated : total_.for_first_plan;
+    attempt.budget.evaluations -= std::min(attempt.budget.evaluations, spent);
     attempt.options.improvement_evaluations = std::min(improvement_, call_.options.improvement_evaluations);
     std::vector<pddl::PlanStep> known;
     if (best_ && !is_lazy()) {
@@ -181,6 +183,7 @@ class Refining {
     Result result = attempt_(attempt);
     const Statistics& one = result.statistics;
     total_.evaluated += one.evaluated;
+    total_.for_first_plan += one.for_first_plan;
     total_.expanded += one.expanded;
     total_.generated += one.generated;
     total_.temporally_inconsistent += one.temporally_inconsistent;

@@ -49,7 +49,8 @@ struct RefinedCall {
 
 /// Plans in the mode that the options name, which is not eager. A plan stands on exact values alone, and so
 /// does the verdict `unsolvable`: before it is given, everything is asked for exactly. Ends, as each round
-/// makes at least one value exact. Throws ModelFailure.
+/// makes at least one value exact. Until a plan stands on exact values, the budget of evaluations counts what
+/// each round takes up to its first plan, and each may spend that of better plans beside. Throws ModelFailure.
 Result plan_refining(const RefinedCall& call, const MakeAttempt& attempt);
 
 }  // namespace roci::planner::temporal_pddl

@@ -14,6 +14,7 @@ struct Statistics {
   std::size_t actions = 0;                  ///< ground actions
   std::size_t generated = 0;                ///< successors that were put into an open list
   std::size_t evaluated = 0;                ///< heuristic evaluations
+  std::size_t for_first_plan = 0;           ///< of these, until there was a plan; all where there is none
   std::size_t expanded = 0;                 ///< states whose successors were generated
   std::size_t temporally_inconsistent = 0;  ///< successors that the temporal network pruned (R25)
   std::size_t dominated = 0;                ///< successors that the dominance check pruned

@@ -186,6 +186,35 @@ TEST(Refining, WhereThePlanDoesNotHoldWithExactValuesAnotherIsFound) {
   EXPECT_THAT(owner.asked_exactly, ::testing::ElementsAre("(time p0 p1)", "(time p0 p2)", "(time p2 p1)"));
 }
 
+// Six of seven ways by one place each look affordable by their bounds and are not; each takes a round to find out.
+TEST(Refining, BetterCheapPlansTakeNothingOfWhatTheFirstPlanMayTake) {
+  std::string roads;
+  TwoAccuracies owner;
+  for (std::size_t a = 0; a < 9; ++a)
+    for (std::size_t b = 0; b < 9; ++b) owner.set(way(a, b), 60, 60);
+  for (std::size_t by = 2; by < 9; ++by) {
+    roads += "(road p0 " + place(by) + ")(road " + place(by) + " p1)";
+    const bool affordable = by == 8;
+    owner.set(way(by, 1), affordable ? 60 : 150, affordable ? 60 : 5 + static_cast<double>(by));
+  }
+  const testing::Model model =
+      tour(9, 1, "(at start (road ?a ?b)) (at start (>= (charge) (time ?a ?b)))", roads);
+  call::Budget budget;
+  budget.evaluations = 100;
+  for (const FunctionsMode mode : {FunctionsMode::eager, FunctionsMode::lazy, FunctionsMode::two_accuracy}) {
+    const Result result =
+        plan(model.domain, model.problem, owner, budget, {}, in_mode(mode, /*improvement=*/50));
+    SCOPED_TRACE(to_string(mode));
+    expect_sound(model, result);
+    ASSERT_TRUE(result.plan);
+    ASSERT_THAT(result.plan->activities, SizeIs(2));
+    EXPECT_EQ(result.plan->activities[0].arguments[1], "p8");
+    if (mode != FunctionsMode::eager) {
+      EXPECT_GT(result.statistics.evaluated, budget.evaluations + 50) << "in many rounds";
+    }
+  }
+}
+
 TEST(Refining, ABoundAboveTheExactValueIsNamedAndTheExactOneCounts) {
   const testing::Model model = tour(2, 1);
   TwoAccuracies owner;
