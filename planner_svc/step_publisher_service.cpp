@@ -62,6 +62,12 @@ void StepPublisher::tell_refused(const char* what, std::size_t room) {
                std::to_string(count) + " refused so far)");
 }
 
+void StepPublisher::tell_impossible(const std::string& kind, const std::string& why) {
+  if (const std::uint64_t count = impossible_.note(kind))
+    report(v1::SEVERITY_WARNING, "planner.measured",
+           why + " (" + std::to_string(count) + " times so far for " + kind + ")");
+}
+
 void StepPublisher::report(v1::Severity severity, const std::string& code, const std::string& text) const {
   events_.write(services::node::make_event(severity, code, text));
 }

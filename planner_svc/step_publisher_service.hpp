@@ -28,6 +28,9 @@ class StepPublisher {
   void tell_blocking(std::vector<engine::BlockingGoal> blocking);
   /// Reports the event "planner.no_room" the first, tenth, hundredth time and so on.
   void tell_refused(const char* what, std::size_t room);
+  /// Reports the event "planner.measured" about what cannot be as it was said; of each kind of thing the first, tenth,
+  /// hundredth time and so on.
+  void tell_impossible(const std::string& kind, const std::string& why);
   void report(v1::Severity severity, const std::string& code, const std::string& text) const;
 
  private:
@@ -38,6 +41,7 @@ class StepPublisher {
   services::Publisher<v1::Event> events_;
   std::vector<engine::BlockingGoal> blocking_;  // as told
   services::bounds::Tally refusals_;
+  services::bounds::Tally impossible_;
 };
 
 }  // namespace roci::planner

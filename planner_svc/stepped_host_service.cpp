@@ -1,10 +1,12 @@
 #include "planner_svc/stepped_host_service.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <exception>
 #include <utility>
 
 #include "planner_svc/engine/checked_answer.hpp"
+#include "planner_svc/limits.hpp"
 #include "planner_svc/wire_service.hpp"
 #include "services/wire/plan_wire.hpp"
 
@@ -13,6 +15,12 @@ namespace roci::planner {
 namespace topics = services::topics;
 using engine::GoalState, engine::MakeStepped;
 using temporal::FlexiblePlan, temporal::PlanDelta, temporal::Time;
+
+namespace {
+
+constexpr temporal::Duration kClockError = std::chrono::seconds(1);  // of two services; more is told
+
+}  // namespace
 
 SteppedHost::SteppedHost(services::Node& node, const Settings& settings, const engine::TableEntry& entry,
                          const std::filesystem::path& networks, const std::filesystem::path& steps)
@@ -109,7 +117,11 @@ void SteppedHost::hear(const v1::PlanReceipt& receipt) {
 }
 
 void SteppedHost::hear(const v1::StepStatus& step) {
-  if (is_ours(step.header())) step_if(inputs_.hear(from_wire(step)));
+  if (!is_ours(step.header())) return;
+  engine::StepStatus heard = from_wire(step);
+  for (auto* const time : {&heard.progress.started, &heard.progress.ended})
+    if (*time) *time = happened(**time, "a step");
+  step_if(inputs_.hear(std::move(heard)));
 }
 
 // The executive tells of owners in whose place another one speaks.
@@ -119,15 +131,44 @@ void SteppedHost::hear(const v1::CommandAck& ack) {
 }
 
 void SteppedHost::hear(const v1::DataProduct& product) {
-  if (is_ours(product.header())) step_if(inputs_.hear(from_wire(product)));
+  if (!is_ours(product.header())) return;
+  if (product.bytes() > kProductBytes)
+    publisher_.tell_impossible("a data product",
+                               "'" + product.id() + "' has " + std::to_string(product.bytes()) +
+                                   " bytes, and counts as one of " + std::to_string(kProductBytes));
+  step_if(inputs_.hear(from_wire(product)));
 }
 
 void SteppedHost::hear(const v1::Observation& observation) {
   try {
-    step_if(inputs_.hear(from_wire(observation)));
+    engine::Observation heard = from_wire(observation);
+    if (!is_possible(heard)) return;
+    heard.sampled = happened(heard.sampled, "an observation");
+    step_if(inputs_.hear(std::move(heard)));
   } catch (const services::wire::WireError&) {
     return;  // the executive tells it
   }
+}
+
+// What an engine fails at would be told to the next engine again, and again: the newest value of a timeline still
+// counts. The value before it stays.
+bool SteppedHost::is_possible(const engine::Observation& observation) {
+  const auto* const number = std::get_if<double>(&observation.value);
+  if (number == nullptr || std::abs(*number) <= kObservedAmount) return true;
+  publisher_.tell_impossible(observation.timeline, "the value " + temporal::to_text(observation.value) +
+                                                       " of '" + observation.timeline + "' is not believed");
+  return false;
+}
+
+// Nothing is heard before it happens. Clocks of two services may differ by a little.
+Time SteppedHost::happened(Time said, const std::string& what) {
+  const Time now = node_.now();
+  if (said <= now) return said;
+  if (said - now > kClockError)
+    publisher_.tell_impossible(
+        "the time of " + what,
+        "the time of " + what + " lies " + temporal::to_text(said - now) + " ahead, and counts as now");
+  return now;
 }
 
 void SteppedHost::note_executed() {

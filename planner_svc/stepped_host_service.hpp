@@ -44,6 +44,8 @@ class SteppedHost {
   void hear(const v1::CommandAck& ack);
   void hear(const v1::DataProduct& product);
   void hear(const v1::Observation& observation);
+  bool is_possible(const engine::Observation& observation);
+  temporal::Time happened(temporal::Time said, const std::string& what);
   void note_executed();
   void step_if(bool news);
   void begin_step();

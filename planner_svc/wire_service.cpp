@@ -242,7 +242,7 @@ engine::DataProduct from_wire(const v1::DataProduct& in) {
   out.kind = in.product_kind();
   out.source = in.source();
   out.tier = static_cast<engine::DataTier>(std::min<std::uint32_t>(in.tier(), v1::TIER_RESIDUAL));
-  out.bytes = in.bytes();
+  out.bytes = std::min(in.bytes(), kProductBytes);
   out.created = std::clamp(temporal::Time(in.created_us()), temporal::Time{0}, temporal::Time(kLatest));
   out.utility = temporal::RankVector(in.utility());
   out.fate = static_cast<engine::DataFate>(std::min<std::uint32_t>(in.fate(), v1::PRODUCT_LOST));

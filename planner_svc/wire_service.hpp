@@ -39,6 +39,7 @@ std::vector<engine::FunctionValue> values_of(const std::vector<engine::FunctionC
 engine::Goal from_wire(const v1::Goal&);
 /// Reads an observation. Throws services::wire::WireError.
 engine::Observation from_wire(const v1::Observation&);
+/// Reads a data product; one of more than kProductBytes has as many.
 engine::DataProduct from_wire(const v1::DataProduct&);
 engine::StepStatus from_wire(const v1::StepStatus&);
 /// Reads a completed command. Values that are no finite number, or whose names exceed kNameBytes, are left out, and

@@ -18,6 +18,13 @@ constexpr downlink::Effort kOfOneQuestion{.most_nodes = 50, .most_variables = 50
 // The Downlink Manager counts in whole steps of a millionth.
 constexpr double kHighestScore = 1e6;
 
+// A product that takes longer is sent by no downlink; its time shall not exceed what mission time can count.
+constexpr double kLongestSending_s = 1e9;
+
+double sending_s(const DataProduct& product, const downlink::Window& window) {
+  return std::min(static_cast<double>(product.bytes) / window.bytes_per_s, kLongestSending_s);
+}
+
 // Sums of the same joules in another order differ in their last digits.
 bool exceeds(double joules, double limit) { return joules > limit * (1 + 1e-9) + 1e-9; }
 
@@ -268,7 +275,7 @@ void Delivery::keep_what_is_sent(Question& question, Time now) const {
       if (found == exists) continue;
       downlink::Window& window = question.windows[w];
       const double before = Rules::joules(window);
-      const double takes_s = static_cast<double>(found->bytes) / window.bytes_per_s;
+      const double takes_s = sending_s(*found, window);
       window.latest_end = std::max(window.start, window.latest_end - temporal::seconds(takes_s));
       window.energy_limit_j = std::max(0.0, window.energy_limit_j - (before - Rules::joules(window)));
       question.sending.emplace(w, std::move(*found));
@@ -381,7 +388,7 @@ Schedule Delivery::schedule(const search::PlannedData& planned, const model::Val
                                                           planned_one.id});
     if (const auto sending = asked.sending.find(w); sending != asked.sending.end()) {
       const DataProduct& product = sending->second;
-      const double takes_s = static_cast<double>(product.bytes) / asked.windows[w].bytes_per_s;
+      const double takes_s = sending_s(product, asked.windows[w]);
       added.bytes += product.bytes;
       added.takes += temporal::seconds(takes_s);
       added.energy_j += takes_s * asked.windows[w].power_w;

@@ -141,8 +141,10 @@ void expect_to_go_on(const fs::path& mission, SampleMaker maker) {
     ASSERT_NO_THROW(console::cli::status_text(crew.view()));
     ASSERT_NO_THROW(console::cli::json_text(console::cli::status_json(crew.view())));
     ASSERT_NO_THROW(console::cli::json_text(console::cli::plan_json(crew.view())));
-    for (const v1::Event& event : crew.view().events())
+    for (const v1::Event& event : crew.view().events()) {
       for (const char c : console::cli::event_line(event)) ASSERT_FALSE(c == '\x1b') << event.text();
+      EXPECT_NE(event.code(), "planner.defect") << event.text();
+    }
   }
   for (int i = 0; i < 20; ++i) ASSERT_NO_THROW(crew.turn());
   std::set<std::string> heard;

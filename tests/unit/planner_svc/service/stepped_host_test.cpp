@@ -34,6 +34,11 @@ class ScriptedEngine final : public engine::SteppedEngine {
 
   StepOutput step(const StepInputs& inputs) override {
     StepOutput out;
+    for (const engine::Observation& observation : inputs.observations)
+      heard_.push_back(observation.timeline + " " + temporal::to_text(observation.value) + " at " +
+                       temporal::to_text(observation.sampled));
+    for (const engine::StepStatus& step : inputs.steps)
+      heard_.push_back(step.activity + " ended at " + temporal::to_text(*step.progress.ended));
     for (const engine::DataProduct& product : inputs.products)
       heard_.push_back("product " + product.id + " of " + product.source + ", " +
                        std::to_string(product.bytes) + " bytes, fate " +
@@ -108,12 +113,12 @@ class SteppedService : public ::testing::Test {
       statuses_.write(status);
     });
   }
-  void tell_product(Time time, v1::ProductFate fate) {
-    executive_.at(time, [this, fate] {
+  void tell_product(Time time, v1::ProductFate fate, std::uint64_t bytes = 60) {
+    executive_.at(time, [this, fate, bytes] {
       v1::DataProduct product;
       product.id("image");
       product.source("look#1.0");
-      product.bytes(60);
+      product.bytes(bytes);
       product.tier(v1::TIER_DECISIONAL);
       product.fate(fate);
       products_.write(product);
@@ -137,6 +142,16 @@ class SteppedService : public ::testing::Test {
         ack.outcome().measured().push_back(value);
       }
       acks_.write(ack);
+    });
+  }
+  void tell_value(Time time, double value, Time sampled) {
+    executive_.at(time, [this, value, sampled] {
+      v1::Observation observation;
+      observation.timeline("battery");
+      observation.observed().kind(v1::VALUE_NUMBER);
+      observation.observed().number(value);
+      observation.sampled_us(sampled.count());
+      observations_.write(observation);
     });
   }
   void tell_receipt(Time time) {
@@ -169,6 +184,7 @@ class SteppedService : public ::testing::Test {
   services::Publisher<v1::DataProduct> products_ = services::advertise(executive_, topics::data_product);
   services::Publisher<v1::CommandAck> acks_ = services::advertise(executive_, topics::command_ack);
   services::Publisher<v1::PlanReceipt> receipts_ = services::advertise(executive_, topics::plan_receipt);
+  services::Publisher<v1::Observation> observations_ = services::advertise(executive_, topics::observation);
   std::unique_ptr<services::Service> service_;
   std::vector<std::string> versions_;
   std::vector<std::string> events_;
@@ -245,12 +261,11 @@ TEST_F(SteppedService, WhatAStepDidIsToldPartByPartWithTheVersionThatCameOfIt) {
 // Beyond its bounds the service says so once, and ten times fewer for each further factor of ten.
 TEST_F(SteppedService, WhatFloodsItsTablesIsRefusedAndTold) {
   constexpr std::size_t kBeyond = 20;
-  const auto observations = services::advertise(executive_, topics::observation);
-  executive_.at(1s, [this, observations] {
+  executive_.at(1s, [this] {
     for (std::size_t i = 0; i < kTimelines + kBeyond; ++i) {
       v1::Observation observation;
       observation.timeline("flood-" + std::to_string(i));
-      observations.write(observation);
+      observations_.write(observation);
     }
     for (std::size_t i = 0; i < kGoals + kBeyond; ++i) {
       v1::Goal goal;
@@ -269,6 +284,32 @@ TEST_F(SteppedService, WhatFloodsItsTablesIsRefusedAndTold) {
   };
   EXPECT_EQ(told("timeline"), 2) << "the first and the tenth";
   EXPECT_EQ(told("goal"), 2);
+}
+
+// An engine may fail at any of these, and would be told it again when it is made anew.
+TEST_F(SteppedService, AnImpossibleFactIsToldAndHeardAsFarAsItMayBe) {
+  tell_value(1s, 5, 1s);
+  tell_value(2s, std::numeric_limits<float>::max(), 2s);
+  tell_value(3s, std::numeric_limits<double>::quiet_NaN(), 3s);
+  tell_value(4s, 4, Time(std::int64_t{10'000'000'000'000'001}));
+  tell_product(5s, v1::PRODUCT_STORED, std::numeric_limits<std::uint64_t>::max());
+  executive_.at(6s, [this] {
+    v1::StepStatus step;
+    step.activity("dig#1.0");
+    step.ended_us(std::numeric_limits<std::int64_t>::max());
+    services::advertise(executive_, topics::step_status).write(step);
+  });
+  run_until(10s);
+  EXPECT_THAT(heard_, ElementsAre("battery 5 at 1 s", "battery 4 at 4 s",
+                                  "product image of look#1.0, 1000000000000000 bytes, fate 0",
+                                  "dig#1.0 ended at 6 s"));
+  EXPECT_THAT(
+      events_,
+      ElementsAre("planner.measured: the value 3.40282e+38 of 'battery' is not believed (1 times so far "
+                  "for battery)",
+                  ::testing::HasSubstr("planner.measured: the time of an observation lies"),
+                  ::testing::HasSubstr("'image' has 18446744073709551615 bytes"),
+                  ::testing::HasSubstr("planner.measured: the time of a step lies")));
 }
 
 }  // namespace
