@@ -156,6 +156,7 @@ class Cycle {
                  const search::Plan* known = nullptr);
   void adopt(const search::Plan& plan);
   std::set<model::TaskIndex> candidates(temporal::Time now) const;
+  void slide_window(temporal::Time now);
   std::vector<const Block*> by_start() const;
   search::Plan planned(temporal::Time now) const;
   temporal::RankVector predicted(std::uint32_t chain, std::span<const double> newest,
@@ -204,9 +205,10 @@ class Cycle {
   search::Outcome searched_;        // how the newest search of this run ended, without its plan
   std::vector<std::string> notes_;  // since the cycle before
   bool to_schedule_ = true;         // something waits that was not tried in this situation
-  bool scheduled_ = false;          // ever
-  bool to_optimize_ = false;        // the situation is another one
-  Observations observations_;       // and what they say against the plan
+  temporal::Time window_end_ = temporal::Time::min();  // of scheduling, in the cycle before
+  bool scheduled_ = false;                             // ever
+  bool to_optimize_ = false;                           // the situation is another one
+  Observations observations_;                          // and what they say against the plan
 };
 
 }  // namespace roci::planner::utility_htn::cycle

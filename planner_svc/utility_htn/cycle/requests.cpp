@@ -1,5 +1,6 @@
 // What is asked for: requests come and go, wait for a place, or are closed.
 #include <set>
+#include <utility>
 #include <vector>
 
 #include "planner_svc/utility_htn/cycle/cycle.hpp"
@@ -89,6 +90,16 @@ std::set<TaskIndex> Cycle::candidates(Time now) const {
     if (!temporal::bounded(preferred) || preferred < until) out.insert(task);
   }
   return out;
+}
+
+// A request whose preferred start the scheduling window reaches as time passes is tried then.
+void Cycle::slide_window(Time now) {
+  const Time before = std::exchange(window_end_, temporal::plus(now, network_.cycle.scheduling_window));
+  if (!temporal::bounded(window_end_)) return;
+  for (const TaskIndex task : waiting()) {
+    const Time preferred = network_.tasks[task].preferred_start;
+    to_schedule_ |= temporal::bounded(preferred) && preferred >= before && preferred < window_end_;
+  }
 }
 
 }  // namespace roci::planner::utility_htn::cycle

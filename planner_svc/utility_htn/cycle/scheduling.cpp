@@ -75,6 +75,7 @@ Cycle::Found Cycle::plan_for(Time now, const std::set<TaskIndex>& candidates, Re
 }
 
 bool Cycle::schedule(Time now, Report& report) {
+  slide_window(now);
   if (!to_schedule_ || (scheduled_ && !settings_.schedules_again)) return false;
   to_schedule_ = false;
   scheduled_ = true;

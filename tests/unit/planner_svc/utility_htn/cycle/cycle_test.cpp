@@ -83,9 +83,10 @@ TEST_F(CycleTest, OnlyWhatPrefersToStartWithinTheSchedulingWindowIsScheduled) {
   Cycle cycle = make();
   cycle.run(Time{0});
   EXPECT_THAT(requests(cycle), Not(Contains("idle")));
-  cycle.doubt();
+  EXPECT_EQ(cycle.run(10s).explored, 0U) << "the window ends at 110 s";
   cycle.run(11s);
   EXPECT_THAT(requests(cycle), Contains("idle"));
+  EXPECT_EQ(cycle.run(12s).explored, 0U) << "it is tried once";
 }
 
 TEST_F(CycleTest, WhatIsOverdueIsExpectedLaterByAsMuchAgainAndMovesThePlanAFewTimes) {
