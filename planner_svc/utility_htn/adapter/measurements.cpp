@@ -9,6 +9,12 @@ namespace roci::planner::utility_htn::adapter {
 
 using assessor::Measured;
 
+// Where the executive's word is missing, the owner's tell.
+std::uint32_t Measurements::Heard::last_attempt() const {
+  if (attempt != 0) return attempt;
+  return results.empty() ? 0 : results.rbegin()->first;
+}
+
 void Measurements::hear(const engine::StepStatus& step) {
   const temporal::ActivityProgress& progress = step.progress;
   if (progress.state != temporal::ActivityState::succeeded || !progress.started || !progress.ended) return;
@@ -21,10 +27,11 @@ void Measurements::hear(const engine::CommandResult& result) {
   heard_[result.activity].results.insert_or_assign(result.attempt, result);
 }
 
-// The commands of the attempt that succeeded are the last ones; a failed attempt says nothing of what the task takes.
+// The commands of the attempt that succeeded are the last ones, and theirs are energy and values. The time from the
+// start of the activity on holds the attempts that failed, too, and says nothing of what the task takes.
 std::optional<Measured> Measurements::measured(const Heard& heard, std::size_t commands) {
   if (commands == 0 || heard.results.empty()) return std::nullopt;
-  const std::uint32_t last = heard.attempt != 0 ? heard.attempt : heard.results.rbegin()->first;
+  const std::uint32_t last = heard.last_attempt();
   Measured out;
   out.energy = 0;
   out.values.emplace();
@@ -36,8 +43,8 @@ std::optional<Measured> Measurements::measured(const Heard& heard, std::size_t c
     out.energy = out.energy && result.energy_j ? std::optional(*out.energy + *result.energy_j) : std::nullopt;
     out.values->insert(result.values.begin(), result.values.end());  // of two of a name the later counts
   }
-  if (const double seconds = temporal::to_seconds(*heard.took); out.energy && seconds > 0)
-    out.power = *out.energy / seconds;
+  const double seconds = temporal::to_seconds(*heard.took);
+  if (out.energy && seconds > 0 && last <= commands) out.power = *out.energy / seconds;
   return out;
 }
 
@@ -48,7 +55,8 @@ std::vector<Measurements::Measurement> Measurements::take(const model::Network& 
     const model::TaskIndex task = task_of_activity(network, activity);
     if (task >= network.tasks.size() || network.tasks[task].learns.empty()) continue;
     const model::Task& of = network.tasks[task];
-    if (!std::exchange(heard.duration_taken, true))
+    const bool tried_again = heard.last_attempt() > of.commands.size();
+    if (!std::exchange(heard.duration_taken, true) && !tried_again)
       out.push_back({task, {temporal::to_seconds(*heard.took), {}, {}, {}}});
     const bool more = std::ranges::any_of(
         of.learns, [](const model::Learns& learns) { return learns.measure != model::Measure::duration_s; });

@@ -29,7 +29,8 @@ class Measurements {
   /// them.
   void resume(std::set<std::string> taken) { taken_ = std::move(taken); }
   /// Returns what can be learned by now: a duration at its activity's end, energy, power and values when the results of
-  /// all commands are there.
+  /// all commands are there. Of an activity that was tried again neither duration nor power is known: the executive
+  /// tells when it began first.
   std::vector<Measurement> take(const model::Network& network);
   /// Forgets all other activities.
   void keep_only(const std::function<bool(const std::string&)>& is_kept);
@@ -42,6 +43,7 @@ class Measurements {
     std::uint32_t attempt = 0;                 // with which it did; 0: not known
     bool duration_taken = false;
     std::map<std::uint32_t, engine::CommandResult> results{};  // by attempt
+    std::uint32_t last_attempt() const;
   };
   static std::optional<assessor::Measured> measured(const Heard& heard, std::size_t commands);
 

@@ -80,19 +80,35 @@ TEST_F(MeasurementsTest, ArePutTogetherWhicheverWordComesFirst) {
 TEST_F(MeasurementsTest, OfSeveralAttemptsTheOneThatSucceededCounts) {
   measurements_.hear(result("dig#1.0", 1, 50'000, 0.1));
   measurements_.hear(succeeded("dig#1.0", 2));
-  EXPECT_THAT(take(), ElementsAre(200));
+  EXPECT_THAT(take(), IsEmpty()) << "the 200 s hold the first attempt";
   measurements_.hear(result("dig#1.0", 2, 8000, 0.5));
-  EXPECT_THAT(take(), ElementsAre(40, 0.5));
+  EXPECT_THAT(take(), ElementsAre(0.5)) << "neither does a power follow";
+  EXPECT_THAT(measurements_.taken(), ElementsAre("dig#1.0"));
 }
 
 TEST_F(MeasurementsTest, OfASequenceAllCommandsCountAndOfTwoValuesTheLater) {
+  measurements_.hear(result("analyze#1.0", 1, 2000, 0.2));
+  measurements_.hear(succeeded("analyze#1.0", 2));
+  EXPECT_THAT(take(), ElementsAre(200)) << "its second command is no second attempt";
+  measurements_.hear(result("analyze#1.0", 2, 1000, 0.3));
+  EXPECT_THAT(take(), ElementsAre(15, 0.3));
+}
+
+TEST_F(MeasurementsTest, OfASequenceThatIsTriedAgainTheLastCommandsCount) {
   measurements_.hear(
       result("analyze#1.0", 1, 70'000, 0.1));  // the first attempt failed at its second command
   measurements_.hear(result("analyze#1.0", 3, 2000, 0.2));
   measurements_.hear(succeeded("analyze#1.0", 4));
-  EXPECT_THAT(take(), ElementsAre(200));
+  EXPECT_THAT(take(), IsEmpty());
   measurements_.hear(result("analyze#1.0", 4, 1000, 0.3));
-  EXPECT_THAT(take(), ElementsAre(15, 0.3));
+  EXPECT_THAT(take(), ElementsAre(0.3));
+}
+
+// An engine that is made anew is not told again with which attempt an activity ended.
+TEST_F(MeasurementsTest, WhereTheExecutiveDoesNotTellTheAttemptTheOwnerDoes) {
+  measurements_.hear(result("dig#1.0", 2, 8000, 0.5));
+  measurements_.hear(succeeded("dig#1.0", 0));
+  EXPECT_THAT(take(), ElementsAre(0.5));
 }
 
 TEST_F(MeasurementsTest, WithoutAMeasuredEnergyNoPowerFollows) {
