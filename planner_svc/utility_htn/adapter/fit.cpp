@@ -25,6 +25,10 @@ bool remembers(const model::Network& network, const Token& token) {
   const std::string_view rest = name.substr(std::min(name.size(), name.find('.') + 1));
   if (name.starts_with("done.") || name.starts_with("withdrawn.") || name.starts_with("contingent."))
     return has(network.tasks, rest, &model::Task::id);
+  if (name.starts_with("failed.")) {
+    const auto* const times = std::get_if<double>(&token.held);
+    return has(network.tasks, rest, &model::Task::id) && times != nullptr && is_count(*times);
+  }
   if (name.starts_with("parameter.")) {
     const auto known = std::ranges::find(network.parameters, rest, &model::Parameter::name);
     const auto* const value = std::get_if<double>(&token.held);

@@ -30,8 +30,8 @@ const flattening::Chain* counterpart(const Network& network, const flattening::C
   return found == chains.chains.end() ? nullptr : &*found;
 }
 
-// Takes over what was found out: what is done, what contingencies ask for, values that are no priors, and timelines as
-// they are now.
+// Takes over what was found out: what is done, what was withdrawn and how often each request has failed, what
+// contingencies ask for, values that are no priors, and timelines as they are now.
 cycle::Past past_for(const Network& next, const Network& before, const cycle::Cycle& cycle, Time now) {
   cycle::Past out{.values = model::priors(next)};
   const auto take_over = [&](const std::set<model::TaskIndex>& tasks, std::set<model::TaskIndex>& taken) {
@@ -40,7 +40,11 @@ cycle::Past past_for(const Network& next, const Network& before, const cycle::Cy
         taken.insert(*same);
   };
   take_over(cycle.past().done, out.done);
+  take_over(cycle.past().withdrawn, out.withdrawn);
   take_over(cycle.past().contingent, out.contingent);
+  for (const auto& [task, times] : cycle.past().failures)
+    if (const auto same = index_of(next.tasks, before.tasks[task].id, &model::Task::id))
+      out.failures[*same] = times;
   for (std::size_t i = 0; i < before.parameters.size(); ++i) {
     const double value = cycle.past().values[i];
     const auto same = index_of(next.parameters, before.parameters[i].name, &model::Parameter::name);
@@ -136,7 +140,7 @@ Network PlannedNetwork::replace(Network next, const std::map<std::string, tempor
   for (const model::TaskIndex task : waiting)
     if (const auto same = index_of(network_.tasks, before.tasks[task].id, &model::Task::id);
         same && network_.tasks[*same].is_template)
-      cycle_->request(*same);
+      cycle_->still_requested(*same);
   return before;
 }
 

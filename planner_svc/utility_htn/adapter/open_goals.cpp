@@ -28,18 +28,23 @@ std::optional<model::TaskIndex> requested_by(const Goal& goal, const PlannedNetw
 }  // namespace
 
 void OpenGoals::hear(const Goal& goal, PlannedNetwork& planned) {
+  if (const auto task = note(goal, planned)) planned.cycle().request(*task);
+}
+
+// Keeps the goal, and returns the task that it asks for.
+std::optional<model::TaskIndex> OpenGoals::note(const Goal& goal, const PlannedNetwork& planned) {
   const auto known = std::ranges::find(goals_, goal.key(), &Goal::key);
   known == goals_.end() ? goals_.push_back(goal) : void(*known = goal);
-  if (goal.kind != kRequest) return;
+  if (goal.kind != kRequest) return std::nullopt;
   std::erase_if(blocking_, [&](const auto& one) { return one.issuer == goal.issuer && one.id == goal.id; });
-  if (const auto task = requested_by(goal, planned)) {
-    planned.cycle().request(*task);
-  } else {
+  const auto task = requested_by(goal, planned);
+  if (!task) {
     const std::string* const name = argument(goal, "task");
     blocking_.push_back({goal.issuer, goal.id, "",
                          name == nullptr ? "a request names its task in the argument 'task'"
                                          : "the network has no task '" + *name + "'"});
   }
+  return task;
 }
 
 void OpenGoals::hear(const engine::EndedGoal& ended, PlannedNetwork& planned) {
@@ -53,7 +58,8 @@ void OpenGoals::hear(const engine::EndedGoal& ended, PlannedNetwork& planned) {
 }
 
 void OpenGoals::hear_again(PlannedNetwork& planned) {
-  for (const Goal& goal : std::vector(goals_)) hear(goal, planned);
+  for (const Goal& goal : std::vector(goals_))
+    if (const auto task = note(goal, planned)) planned.cycle().still_requested(*task);
 }
 
 std::vector<std::string> OpenGoals::served_by_all() const {

@@ -2,6 +2,7 @@
 // others, which the whole plan serves.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,7 +22,7 @@ class OpenGoals {
   void hear(const engine::Goal& goal, PlannedNetwork& planned);
   /// Takes in that a goal has ended. What serves a request that was not achieved is withdrawn.
   void hear(const engine::EndedGoal& ended, PlannedNetwork& planned);
-  /// Takes all of them in again, since another network is in force.
+  /// Takes all of them in again, since another network is in force. What was given up for them stays so.
   void hear_again(PlannedNetwork& planned);
 
   /// Returns the keys of the goals that every activity serves.
@@ -30,6 +31,8 @@ class OpenGoals {
   void serve_requests(temporal::FlexiblePlan& plan, const PlannedNetwork& planned) const;
 
  private:
+  std::optional<model::TaskIndex> note(const engine::Goal& goal, const PlannedNetwork& planned);
+
   std::vector<engine::Goal> goals_;
   std::vector<engine::BlockingGoal> blocking_;
 };

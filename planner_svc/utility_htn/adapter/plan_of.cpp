@@ -212,6 +212,8 @@ FlexiblePlan plan_of(const model::Network& network, const flattening::Chains& ch
   for (const model::TaskIndex task : past.done) remember("done." + network.tasks[task].id, true);
   for (const model::TaskIndex task : past.withdrawn) remember("withdrawn." + network.tasks[task].id, true);
   for (const model::TaskIndex task : past.contingent) remember("contingent." + network.tasks[task].id, true);
+  for (const auto& [task, times] : past.failures)
+    remember("failed." + network.tasks[task].id, static_cast<double>(times));
   for (std::size_t i = 0; i < past.values.size(); ++i)
     if (past.values[i] != network.parameters[i].prior)
       remember("parameter." + network.parameters[i].name, past.values[i]);

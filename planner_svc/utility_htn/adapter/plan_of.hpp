@@ -46,6 +46,9 @@ class Points {
 /// Names the token that says up to which mission time, in seconds, the other tokens of the past count.
 inline constexpr char kPastUntil[] = "past_until";
 
+/// Returns whether a token may hold this number as a count.
+constexpr bool is_count(double number) { return number >= 0 && number <= 1e9; }
+
 /// Returns the plan: blocks that are not over with all their links, each not before its planned start, pushed for as
 /// long as its wait timeout; a token for each block, which holds its chain's name and number; and from the origin to
 /// Points::kPast one token for each thing of the past that is needed to go on after a restart. What was committed in

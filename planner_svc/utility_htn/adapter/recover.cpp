@@ -57,6 +57,12 @@ class Recovery {
     const std::string_view rest = name.substr(std::min(name.size(), name.find('.') + 1));
     if (auto* const tasks = tasks_of(name); tasks != nullptr) {
       tasks->insert(static_cast<model::TaskIndex>(index(network_.tasks, rest, &model::Task::id, "task")));
+    } else if (name.starts_with("failed.")) {
+      const auto* times = std::get_if<double>(&token.held);
+      if (times == nullptr || !is_count(*times)) foreign("count in " + token.timeline);
+      out_.past
+          .failures[static_cast<model::TaskIndex>(index(network_.tasks, rest, &model::Task::id, "task"))] =
+          static_cast<std::uint32_t>(*times);
     } else if (name.starts_with("parameter.")) {
       const auto* number = std::get_if<double>(&token.held);
       if (number == nullptr) foreign("number in " + token.timeline);

@@ -188,6 +188,7 @@ void UtilityEngine::go_on_with(const FlexiblePlan& executed, Time now) {
     recovered.past.values = cycle.past().values;
     recovered.past.withdrawn = cycle.past().withdrawn;
     recovered.past.contingent = cycle.past().contingent;
+    recovered.past.failures = cycle.past().failures;
     recovered.past.done.insert(cycle.past().done.begin(), cycle.past().done.end());
     recovered.measured.insert(measurements_.taken().begin(), measurements_.taken().end());
   }

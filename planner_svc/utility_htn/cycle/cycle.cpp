@@ -80,6 +80,7 @@ void Cycle::resume(const Past& past, std::vector<Block> blocks, std::uint32_t la
   past_ = past;
   observations_.await_nothing();
   for (const TaskIndex task : past.withdrawn) requested_.erase(task);
+  std::erase_if(requested_, [&](TaskIndex task) { return failed_too_often(task); });
   requested_.insert(past.contingent.begin(), past.contingent.end());
   last_block_ = last_block;
   timelines_ = temporal::timelines::Timelines(network_.timelines, lines_from(since));
@@ -155,7 +156,8 @@ void Cycle::forget_over(Report& report) {
     if (!one.failed()) {
       past_.done.insert(task);
       past_.contingent.erase(task);
-    } else if (++failures_[task] >= settings_.most_failures) {
+      past_.failures.erase(task);
+    } else if (++past_.failures[task]; failed_too_often(task)) {
       give_up(task);
       report.notes.push_back(network_.tasks[task].id + " is withdrawn: it failed " +
                              std::to_string(settings_.most_failures) + " times");

@@ -62,6 +62,8 @@ struct Past {
   std::set<model::TaskIndex> withdrawn{};
   /// Lists templates that contingencies have requested (R69) and that are not done.
   std::set<model::TaskIndex> contingent{};
+  /// Counts how often each request has failed since somebody asked for it.
+  std::map<model::TaskIndex, std::uint32_t> failures{};
   model::Values values{};          ///< as learned
   std::vector<double> internal{};  ///< by timeline: values of those that nobody reports
   friend bool operator==(const Past&, const Past&) = default;
@@ -84,6 +86,9 @@ class Cycle {
   void ended(TaskId task, temporal::Time at, bool succeeded, const std::string& cause = {});
   /// Asks for a template, or for something that was withdrawn; forgets its failures.
   void request(model::TaskIndex task);
+  /// Takes in that somebody who asked for a task before another network came still does: what is done, or was given
+  /// up, stays so.
+  void still_requested(model::TaskIndex task);
   /// Lets a request go; what of it is committed stands.
   void withdraw(model::TaskIndex task);
   /// Replaces a parameter's value (R116, R118). Returns why not, if it is out of range.
@@ -164,6 +169,7 @@ class Cycle {
                                  std::span<const model::TaskIndex> closed) const;
   std::vector<model::TaskIndex> closed_but(std::set<model::TaskIndex> open, temporal::Time now) const;
   void give_up(model::TaskIndex task);
+  bool failed_too_often(model::TaskIndex task) const;
   temporal::timelines::Footprint footprint(const Block& block, std::size_t link) const;
   temporal::Duration duration(model::TaskIndex task) const;
   temporal::Duration length(const Block& block, std::size_t link) const;
@@ -194,7 +200,6 @@ class Cycle {
   temporal::timelines::Timelines timelines_;
   Past past_;
   std::set<model::TaskIndex> requested_;
-  std::map<model::TaskIndex, std::uint32_t> failures_;
   std::vector<Block> blocks_;  // by number
   Sessions sessions_;
   temporal::Time plan_end_ =

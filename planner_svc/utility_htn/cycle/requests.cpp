@@ -24,9 +24,19 @@ void Cycle::edit_network(TaskIndex task) {
 
 void Cycle::request(TaskIndex task) {
   const bool again = past_.done.erase(task) != 0;
-  failures_.erase(task);
+  past_.failures.erase(task);
   past_.withdrawn.erase(task);
   to_schedule_ |= requested_.insert(task).second || again;
+}
+
+void Cycle::still_requested(TaskIndex task) {
+  if (failed_too_often(task) || past_.done.contains(task) || past_.withdrawn.contains(task)) return;
+  to_schedule_ |= requested_.insert(task).second;
+}
+
+bool Cycle::failed_too_often(TaskIndex task) const {
+  const auto known = past_.failures.find(task);
+  return known != past_.failures.end() && known->second >= settings_.most_failures;
 }
 
 // Templates are nobody's request until somebody asks.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <set>
 #include <string>
 
 #include "core/temporal/plan_delta.hpp"
@@ -141,6 +142,37 @@ TEST_F(ModelChanges, WhatIsCommittedStandsInTheNewPlan) {
     ASSERT_NE(now, plan_.activities.end()) << one.id;
     EXPECT_EQ(*now, one);
   }
+}
+
+// The ground that wants a site dug all the same asks for it.
+TEST_F(ModelChanges, WhatWasGivenUpStaysSoInANewNetwork) {
+  std::set<std::string> over;
+  int failed = 0;
+  for (int i = 0; i < 150; ++i) {
+    advance(temporal::seconds(60));
+    for (const PlanActivity& one : std::vector(plan_.activities)) {
+      const bool due = one.commit == temporal::CommitState::committed && !one.owner.empty() &&
+                       plan_.origin + one.preferred_start <= now_;
+      if (!due || planned(one.name) == nullptr || !over.insert(one.id).second) continue;
+      const bool fails = one.name == "dig_near";
+      failed += fails ? 1 : 0;
+      execute(one.name, fails ? ActivityState::failed : ActivityState::succeeded, now_,
+              now_ + (fails ? temporal::seconds(1) : one.duration_lower));
+    }
+  }
+  ASSERT_EQ(failed, 3);
+  ASSERT_EQ(planned("dig_near"), nullptr);
+  model::Network next = lander();
+  next.version = 2;
+  EXPECT_THAT(send(next), IsEmpty());
+  EXPECT_EQ(planned("dig_near"), nullptr);
+  StepInputs asked;
+  asked.goals.push_back(mission());
+  asked.goals.back().id = asked.goals.back().kind = "request";
+  asked.goals.back().arguments = {{"task", "sample_near"}};
+  step(std::move(asked));
+  advance(temporal::seconds(60));
+  EXPECT_NE(planned("dig_near"), nullptr);
 }
 
 TEST_F(ModelChanges, ANetworkWithoutWhatHasBegunIsRefusedWithItsName) {

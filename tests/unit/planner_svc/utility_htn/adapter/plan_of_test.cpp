@@ -82,6 +82,10 @@ TEST_F(PlanOf, RemembersWhatIsDoneWithdrawnAndLearned) {
   }
   ASSERT_GE(cycle_.past().done.size(), 2U);
   cycle_.withdraw(testing::task_named(network_, "idle"));
+  cycle::Past failed = cycle_.past();
+  failed.failures = {{testing::task_named(network_, "sample"), 2},
+                     {testing::task_named(network_, "view"), 3}};
+  cycle_.resume(failed, {}, cycle_.last_block(), now);
   EXPECT_EQ(recover(network_, chains_, plan(2)).past, cycle_.past());
 }
 

@@ -108,6 +108,19 @@ TEST_F(TwoSites, WhatTheMapLedToThroughSomethingThatRepairTookOutGoesWithIt) {
   }
 }
 
+// The three failures count however many processes of the planner see them.
+TEST_F(TwoSites, WhatHasFailedIsCountedOverARestart) {
+  Cycle first = make_with_map();
+  Time now{0};
+  while (first.past().failures.empty() && now < 1000s) fly(first, now, now + 10s, "open_0");
+  ASSERT_THAT(first.past().failures, ElementsAre(::testing::Pair(task_named(network_, "open_0"), 1U)));
+  Cycle second = make_with_map();
+  second.resume(first.past(), first.blocks(), first.last_block(), now);
+  fly(second, now, now + 1000s, "open_0");
+  EXPECT_THAT(notes_, Contains("open_0 is withdrawn: it failed 3 times"));
+  EXPECT_EQ(std::ranges::count(notes_, "open_0 failed"), 3);
+}
+
 TEST_F(TwoSites, WhatWasGivenUpStaysSoUntilSomebodyAsks) {
   Cycle first = make_with_map();
   Time now{0};
