@@ -42,6 +42,11 @@ std::vector<std::pair<Index, double>> Observations::take_unconfirmed(Time now) {
   return out;
 }
 
+bool Observations::is_newest(Index timeline, Time sampled) const {
+  const auto known = newest_.find(timeline);
+  return known == newest_.end() || known->second.sampled < sampled;
+}
+
 std::optional<double> Observations::newest(Index timeline) const {
   const auto known = newest_.find(timeline);
   return known == newest_.end() ? std::nullopt : std::optional(known->second.value);

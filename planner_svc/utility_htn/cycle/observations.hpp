@@ -31,6 +31,8 @@ class Observations {
   /// since such a task ended. They are awaited no longer.
   std::vector<std::pair<temporal::timelines::Index, double>> take_unconfirmed(temporal::Time now);
 
+  /// Returns whether nothing was observed of the timeline that was sampled then or later.
+  bool is_newest(temporal::timelines::Index timeline, temporal::Time sampled) const;
   /// Returns the value observed last.
   std::optional<double> newest(temporal::timelines::Index timeline) const;
 

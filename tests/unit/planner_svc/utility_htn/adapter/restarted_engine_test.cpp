@@ -66,6 +66,22 @@ TEST(RestartedEngine, KnowsWhatWasReportedBeforeItsRestartHoweverItHearsIt) {
       << "with the executed version";
 }
 
+// The process before it died before any version was executed; what was reported then is not reported again.
+TEST(RestartedEngine, KnowsWhatWasReportedBeforeItBegan) {
+  StepInputs inputs = beginning();
+  inputs.now = Time(6s);
+  inputs.observations = {{"battery", 200.0, Time(1s)}};
+  const StepOutput out = new_engine().step(inputs);
+  ASSERT_TRUE(out.delta);
+  FlexiblePlan plan;
+  ASSERT_EQ(temporal::apply(*out.delta, plan), "");
+  const auto has = [&](const std::string& name) {
+    return std::ranges::find(plan.activities, name, &temporal::PlanActivity::name) != plan.activities.end();
+  };
+  EXPECT_TRUE(has("send_view"));
+  EXPECT_FALSE(has("send_sample")) << "which takes 350 J";
+}
+
 // The timelines that nobody reports stand in the plan as they were when it was sent; what ended later moved them, too.
 TEST(RestartedEngine, KnowsWhatATaskHasMadeOfATimelineSinceTheVersionThatIsExecuted) {
   UtilityEngine died = new_engine();

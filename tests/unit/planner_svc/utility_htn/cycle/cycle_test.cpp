@@ -392,6 +392,19 @@ TEST_F(CycleTest, WhatACommandWasToBringAboutAndNobodyReportsHasNotComeAbout) {
   }
 }
 
+// Of a state only changes are reported, so no second report corrects the first.
+TEST_F(CycleTest, AReportThatIsHeardAfterItsCycleCountsUnlessANewerOneIsKnown) {
+  Cycle cycle = make();
+  cycle.run(Time{0});
+  cycle.run(10s);
+  cycle.observe(testing::kHealth, 9s, 1);
+  EXPECT_EQ(cycle.timelines().value(testing::kHealth, 10s), 1);
+  cycle.observe(testing::kHealth, 8s, 0);
+  EXPECT_EQ(cycle.timelines().value(testing::kHealth, 10s), 1) << "it is older";
+  cycle.run(20s);
+  EXPECT_EQ(cycle.timelines().value(testing::kHealth, 20s), 1);
+}
+
 // A view of Earth does not end with the battery; a plan without it would take what is in view for what stays so.
 TEST_F(CycleTest, WhatComesFromOutsideOutlastsTheEarlyEnd) {
   model::Task sky;
