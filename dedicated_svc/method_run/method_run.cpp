@@ -129,11 +129,16 @@ Step MethodRun::take(const Answer& answer, const Observations& observed) {
     energy_known_ = energy_known_ && answer.energy_j;
     energy_j_ += answer.energy_j.value_or(0);
   }
+  forget(current().name + ".");
   for (const auto& [name, value] : answer.values) values_[current().name + "." + name] = value;
   if (!answer.error.empty()) return fail(answer, observed);
   if (const std::string fault = fault_of(current(), answer.values); !fault.empty())
     return fail({kWrongValue, fault, answer.values, {}}, observed);
   return advance();
+}
+
+void MethodRun::forget(const std::string& front) {
+  std::erase_if(values_, [&](const auto& value) { return value.first.starts_with(front); });
 }
 
 Step MethodRun::advance() {
@@ -162,6 +167,7 @@ Step MethodRun::fail(const Answer& answer, const Observations& observed) {
     End end = error_;
     end.reason += "; its repair failed in " + reason;
     end.values = answer.values;
+    end.energy_j = energy_j();
     return {{}, std::move(end), {}};
   }
   auto repair = method_->repairs.find(current().name + "." + answer.error);
@@ -195,8 +201,7 @@ End MethodRun::forbid_repair() {
 }
 
 End MethodRun::ended(std::string error, std::string reason, std::map<std::string, Value> values) const {
-  return {std::move(error), std::move(reason), std::move(values),
-          energy_known_ ? std::optional(energy_j_) : std::nullopt,
+  return {std::move(error), std::move(reason), std::move(values), energy_j(),
           at_.index < at_.calls->size() ? current().name : std::string()};
 }
 

@@ -91,9 +91,11 @@ class MethodRun {
 
   const methods::Call& current() const { return (*at_.calls)[at_.index]; }
   Step ask();
+  void forget(const std::string& front);  // values whose names begin so
   Step advance();
   Step fail(const Answer& answer, const Observations& observed);
   Step wrong_value(const std::string& reason, std::map<std::string, temporal::Value> values);
+  std::optional<double> energy_j() const { return energy_known_ ? std::optional(energy_j_) : std::nullopt; }
   bool fits(const methods::Repair& repair, const Observations& observed) const;
   End ended(std::string error, std::string reason, std::map<std::string, temporal::Value> values) const;
   std::optional<std::string> value_of(const std::string& name) const;

@@ -175,11 +175,46 @@ dedicated:
   const Step end = failed.take(error("stalled"), {});
   ASSERT_TRUE(end.end);
   EXPECT_EQ(end.end->error, "blocked") << "a repair that fails ends it as failed";
+  EXPECT_EQ(end.end->energy_j, 20) << "what the failed repair drew counts, too";
 
   // What one process had taken another one comes to the end with.
   MethodRun again(methods.methods.at("Go"), {});
   EXPECT_EQ(asked(again.begin_after({{numbers({{"x", 2}}), {}}, {error("blocked"), {}}})), "3 around");
   EXPECT_TRUE(again.take({}, {}).end);
+}
+
+// What a call brought is gone when it is called again: its second answer may bring less, or nothing.
+TEST(MethodRun, ARepeatedCallHasOnlyWhatItBroughtLast) {
+  constexpr char kText[] = R"(
+dedicated:
+  timeline: t
+  subsystem: s
+  methods:
+    Go:
+      calls:
+        - {name: way, command: {owner: o, subsystem: map, name: way}}
+        - {name: drive, command: {owner: o, subsystem: nav, name: drive, arguments: {way: "{way.way}"}}}
+      repairs:
+        drive.no-go: {calls: [{name: pause, wait_s: 1}], then: way}
+        way.blocked: {calls: [{name: anew, command: {owner: o, subsystem: nav, name: drive, arguments: {way: "{way.way}"}}}]}
+)";
+  const Methods methods = methods::read_methods(mission::Entry::parse(kText, "m").at("dedicated"));
+  Answer closed_way;
+  closed_way.values = {{"way", state("closed")}, {"length_m", 3.0}};
+  const auto at_second_way = [&] {
+    MethodRun run(methods.methods.at("Go"), {});
+    run.begin();
+    run.take(closed_way, {});
+    run.take(error("no-go"), {});
+    EXPECT_EQ(asked(run.take({}, {})), "4 way");
+    return run;
+  };
+  MethodRun without = at_second_way();
+  const Step step = without.take(numbers({{"length_m", 4}}), {});
+  EXPECT_EQ(asked(step), "end wrong-value") << "the way that was just closed is not driven again";
+  MethodRun failed = at_second_way();
+  EXPECT_EQ(asked(failed.take(error("blocked"), {})), "end wrong-value")
+      << "nor in a repair of the second call";
 }
 
 TEST(MethodRun, AnErrorThatIsNotRepairedAnyMoreStands) {
