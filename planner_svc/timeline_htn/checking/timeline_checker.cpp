@@ -1,8 +1,9 @@
 #include "planner_svc/timeline_htn/checking/timeline_checker.hpp"
 
 #include <algorithm>
-#include <functional>
 #include <map>
+#include <span>
+#include <string_view>
 
 #include "planner_svc/timeline_htn/checking/check.hpp"
 #include "planner_svc/timeline_htn/checking/owners_values.hpp"
@@ -11,62 +12,72 @@
 
 namespace roci::planner::timeline_htn::checking {
 
-using model::GroundState, model::Index, model::Model;
+using model::Index, model::Model;
 
 namespace {
 
-// Calls `take` with each state of a component, until it returns true.
-bool each_state(const Model& model, Index component, const std::function<bool(const GroundState&)>& take) {
-  const auto& states = model.components[component].states;
-  for (Index s = 0; s < states.size(); ++s) {
-    GroundState state{component, s, {}};
-    const std::function<bool()> next = [&] {
-      if (state.objects.size() == states[s].parameters.size()) return take(state);
-      for (Index object = 0; object < model.objects.size(); ++object) {
-        if (model.objects[object].type != states[s].parameters[state.objects.size()].type) continue;
-        state.objects.push_back(object);
-        const bool taken = next();
-        state.objects.pop_back();
-        if (taken) return true;
-      }
-      return false;
-    };
-    if (next()) return true;
+using Names = std::map<std::string_view, Index>;
+
+std::optional<Index> object_named(const Model& model, const std::string& name, Index type) {
+  for (Index i = 0; i < model.objects.size(); ++i)
+    if (model.objects[i].type == type && model.objects[i].name == name) return i;
+  return std::nullopt;
+}
+
+std::optional<Index> first_object(const Model& model, Index type) {
+  for (Index i = 0; i < model.objects.size(); ++i)
+    if (model.objects[i].type == type) return i;
+  return std::nullopt;
+}
+
+// The state with these arguments for the parameters that `terms` names. A parameter that is not among them may be
+// any object of its type: it is the first.
+std::optional<model::Pattern> state_with(const Model& model, Index component, Index state,
+                                         const std::vector<model::Term>& terms,
+                                         const std::vector<std::string>& arguments) {
+  if (terms.size() != arguments.size()) return std::nullopt;
+  const auto& parameters = model.components[component].states[state].parameters;
+  std::vector<std::optional<Index>> objects(parameters.size());
+  for (std::size_t i = 0; i < terms.size(); ++i) {
+    std::optional<Index>& known = objects[terms[i].index];
+    const auto object = object_named(model, arguments[i], parameters[terms[i].index].type);
+    if (!object || (known && *known != *object)) return std::nullopt;
+    known = object;
   }
-  return false;
-}
-
-// "parked(wp1)", "true", "3"; as words, since all values have such a form.
-std::string shown(const Model& model, const GroundState& state) {
-  const model::Observed& observed = *model.components[state.component].states[state.state].observed;
-  temporal::State out{observed.word, {}};
-  for (const model::Term& term : observed.terms)
-    out.arguments.push_back(model.objects[term.object ? term.index : state.objects[term.index]].name);
-  return temporal::to_text(out);
-}
-
-bool shows_as(const Model& model, const GroundState& state, const std::string& timeline,
-              const temporal::Value& value) {
-  const auto& observed = model.components[state.component].states[state.state].observed;
-  return observed && observed->timeline == timeline && shown(model, state) == temporal::to_text(value);
-}
-
-model::Pattern pattern_of(const GroundState& state) {
-  model::Pattern out{state.component, state.state, {}};
-  for (const Index object : state.objects) out.terms.push_back({object, true});
+  model::Pattern out{component, state, {}};
+  for (Index i = 0; i < objects.size(); ++i) {
+    const auto object = objects[i] ? objects[i] : first_object(model, parameters[i].type);
+    if (!object) return std::nullopt;
+    out.terms.push_back({*object, true});
+  }
   return out;
+}
+
+// The first state of a component that is seen as this value of this timeline.
+std::optional<model::Pattern> seen_as(const Model& model, Index component, const std::string& timeline,
+                                      const temporal::Value& value) {
+  const auto& states = model.components[component].states;
+  const auto* seen = std::get_if<temporal::State>(&value);
+  for (Index s = 0; s < states.size(); ++s) {
+    if (!states[s].observed || states[s].observed->timeline != timeline) continue;
+    const model::Observed& observed = *states[s].observed;
+    if (observed.word != (seen ? seen->name : temporal::to_text(value))) continue;
+    if (auto out = state_with(model, component, s, observed.terms,
+                              seen ? seen->arguments : std::vector<std::string>{}))
+      return out;
+  }
+  return std::nullopt;
 }
 
 void put_states(const engine::Request& request, Model& model, std::vector<std::string>& out) {
   for (Index c = 0; c < model.components.size(); ++c) {
-    const bool seen = each_state(model, c, [&](const GroundState& state) {
-      for (const auto& [timeline, value] : request.state)
-        if (shows_as(model, state, timeline, value)) {
-          model.problem->initial[c] = pattern_of(state);
-          return true;
-        }
-      return false;
-    });
+    std::optional<model::Pattern> seen;
+    for (const model::State& state : model.components[c].states) {
+      if (seen || !state.observed) continue;
+      const auto value = request.state.find(state.observed->timeline);
+      if (value != request.state.end()) seen = seen_as(model, c, value->first, value->second);
+    }
+    if (seen) model.problem->initial[c] = seen;
     if (!seen && !model.problem->initial[c])
       out.push_back("neither the request nor the model says in which state '" + model.components[c].name +
                     "' begins");
@@ -75,47 +86,59 @@ void put_states(const engine::Request& request, Model& model, std::vector<std::s
 
 // The state that a comparison asks for: of the component of that name, else one that shows so.
 std::optional<model::Pattern> asked_for(const Model& model, const temporal::ConditionNode& node) {
-  std::optional<model::Pattern> out;
-  if (node.op != temporal::ConditionOp::eq) return out;
-  const auto take = [&](const GroundState& state) {
-    out = pattern_of(state);
-    return true;
-  };
-  for (Index c = 0; c < model.components.size() && !out; ++c)
-    if (model.components[c].name == node.timeline)
-      each_state(model, c, [&](const GroundState& state) {
-        return model::value_of(model, state) == node.operand && take(state);
-      });
-  for (Index c = 0; c < model.components.size() && !out; ++c)
-    each_state(model, c, [&](const GroundState& state) {
-      return shows_as(model, state, node.timeline, node.operand) && take(state);
-    });
-  return out;
+  if (node.op != temporal::ConditionOp::eq) return std::nullopt;
+  const auto* wanted = std::get_if<temporal::State>(&node.operand);
+  for (Index c = 0; c < model.components.size() && wanted != nullptr; ++c) {
+    if (model.components[c].name != node.timeline) continue;
+    const auto& states = model.components[c].states;
+    for (Index s = 0; s < states.size(); ++s) {
+      std::vector<model::Term> terms;
+      for (Index i = 0; i < states[s].parameters.size(); ++i) terms.push_back({i, false});
+      if (states[s].name != wanted->name) continue;
+      if (auto out = state_with(model, c, s, terms, wanted->arguments)) return out;
+    }
+  }
+  for (Index c = 0; c < model.components.size(); ++c)
+    if (auto out = seen_as(model, c, node.timeline, node.operand)) return out;
+  return std::nullopt;
 }
 
-// Every row that a relation of the model could have is looked up by its timeline's name.
+// Adds each row of objects of these types whose names, with dots between, are the text. A name may itself have dots.
+void add_rows(const Model& model, const Names& names, std::span<const Index> types, std::string_view text,
+              std::vector<Index>& row, std::vector<std::vector<Index>>& out) {
+  for (std::size_t end = text.find('.');; end = text.find('.', end + 1)) {
+    const bool last = end == std::string_view::npos;
+    const auto object = names.find(text.substr(0, end));
+    if (object != names.end() && model.objects[object->second].type == types.front() &&
+        last == (types.size() == 1)) {
+      row.push_back(object->second);
+      if (last)
+        out.push_back(row);
+      else
+        add_rows(model, names, types.subspan(1), text.substr(end + 1), row, out);
+      row.pop_back();
+    }
+    if (last) return;
+  }
+}
+
 void put_relations(const engine::Request& request, Model& model) {
+  Names names;
+  for (Index i = 0; i < model.objects.size(); ++i) names.emplace(model.objects[i].name, i);
   for (model::Relation& relation : model.relations) {
     if (relation.timeline.empty()) continue;
-    std::vector<std::pair<std::string, std::vector<Index>>> rows{{relation.timeline, {}}};
-    for (const Index type : relation.types) {
-      std::vector<std::pair<std::string, std::vector<Index>>> longer;
-      for (const auto& [name, row] : rows)
-        for (Index o = 0; o < model.objects.size(); ++o)
-          if (model.objects[o].type == type) {
-            longer.emplace_back(name + "." + model.objects[o].name, row);
-            longer.back().second.push_back(o);
-          }
-      rows = std::move(longer);
-    }
-    for (const auto& [name, row] : rows) {
-      const auto seen = request.state.find(name);
-      if (seen == request.state.end() || std::ranges::find(relation.rows, row) != relation.rows.end())
-        continue;
+    const std::string front = relation.timeline + ".";
+    std::vector<Index> row;
+    for (auto seen = request.state.lower_bound(front);
+         seen != request.state.end() && seen->first.starts_with(front); ++seen) {
       const auto* state = std::get_if<temporal::State>(&seen->second);
-      if (state && state->name == relation.value) relation.rows.push_back(row);
+      if (state && state->name == relation.value)
+        add_rows(model, names, relation.types, std::string_view(seen->first).substr(front.size()), row,
+                 relation.rows);
     }
     std::ranges::sort(relation.rows);
+    const auto doubled = std::ranges::unique(relation.rows);
+    relation.rows.erase(doubled.begin(), doubled.end());
   }
 }
 
@@ -142,12 +165,7 @@ void put_predicted(const engine::Request& request, Model& model, std::vector<std
       const model::Pattern* before = !values.empty()             ? &values.back().state
                                      : model.problem->initial[c] ? &*model.problem->initial[c]
                                                                  : nullptr;
-      std::optional<model::Pattern> state;
-      each_state(model, c, [&](const GroundState& known) {
-        if (!shows_as(model, known, one->timeline, one->value)) return false;
-        state = pattern_of(known);
-        return true;
-      });
+      const auto state = seen_as(model, c, one->timeline, one->value);
       if (!state)
         out.push_back(one->timeline + " = " + temporal::to_text(one->value) +
                       " is predicted, and is no state of '" + model.components[c].name + "'");

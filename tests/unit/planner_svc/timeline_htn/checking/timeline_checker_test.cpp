@@ -78,6 +78,51 @@ TEST(TimelineCheckerSeam, TakesWhatIsObservedWhereTheModelSaysNothing) {
               Contains(HasSubstr("neither the request nor the model says in which state 'base' begins")));
 }
 
+// Rows and states are found by what is observed: all that could be are 10,000 to the power of eight.
+TEST(TimelineCheckerSeam, ManyObjectsCostNoMoreThanWhatIsObservedOfThem) {
+  std::string objects;
+  for (int i = 0; i < 10'000; ++i) objects += (i == 0 ? "o" : ", o") + std::to_string(i);
+  std::string eight = "a: thing", types = "thing", terms = "a";
+  for (const char* name : {"b", "c", "d", "e", "f", "g", "h"}) {
+    eight += ", " + std::string(name) + ": thing";
+    types += ", thing";
+    terms += ", " + std::string(name);
+  }
+  engine::Request many;
+  many.model = "format: 1\ndomain: many\ntypes: [thing, other]\nobjects: {thing: [" + objects +
+               "]}\nrelations:\n  seen: {arguments: [" + types +
+               "], observed: {timeline: way, value: open}}\n"
+               "  pair: {arguments: [other, thing], observed: {timeline: two, value: open}}\n"
+               "components:\n  one:\n    layer: primitive\n    states:\n"
+               "      off: {kind: default, observed: {timeline: state}}\n"
+               "      on: {kind: default, parameters: {" +
+               eight + "}, observed: {timeline: state, value: \"on(h, " + terms +
+               ")\"}}\n    transitions: [\"off <-> on(" + terms + ")\"]\n" +
+               "problem: {horizon_s: 100, initial: {}, goals: {}}\n";
+  many.objects = {{"x.y", "other", {}}};
+  many.state = {{"way.o1.o2.o3.o4.o5.o6.o7.o9999", temporal::state("open")},
+                {"way.o1.o2.o3.o4.o5.o6.o7", temporal::state("open")},
+                {"way.o1.o2.o3.o4.o5.o6.o7.o8", temporal::state("closed")},
+                {"two.x.y.o3", temporal::state("open")},
+                {"two.o3.x.y", temporal::state("open")},
+                {"state", temporal::state("on", {"o9", "o1", "o2", "o3", "o4", "o5", "o6", "o8", "o9"})}};
+  engine::Goal goal;
+  goal.id = "g";
+  goal.achieved = temporal::compare("one", temporal::ConditionOp::eq,
+                                    temporal::state("on", {"o9", "o9", "o9", "o9", "o9", "o9", "o9", "o9"}));
+  many.goals = {goal};
+  std::vector<std::string> faults;
+  const auto model = model_of(many, faults);
+  ASSERT_THAT(faults, IsEmpty());
+  using Rows = std::vector<std::vector<model::Index>>;
+  EXPECT_EQ(model->relations[0].rows, (Rows{{1, 2, 3, 4, 5, 6, 7, 9999}}));
+  EXPECT_EQ(model->relations[1].rows, (Rows{{10'000, 3}}));
+  EXPECT_EQ(to_text(*model, *model->problem->initial[0], {}), "one.on(o1, o2, o3, o4, o5, o6, o8, o9)");
+  EXPECT_EQ(to_text(*model, model->problem->goals.at(0).state, {}), "one.on(o9, o9, o9, o9, o9, o9, o9, o9)");
+  many.state["state"] = temporal::state("on", {"o8", "o1", "o2", "o3", "o4", "o5", "o6", "o8", "o9"});
+  EXPECT_FALSE(model_of(many, faults)) << "h cannot be two things";
+}
+
 TEST(TimelineCheckerSeam, SaysWhatItCannotCheckAgainst) {
   engine::Request bad = request();
   bad.goals[0].achieved =
