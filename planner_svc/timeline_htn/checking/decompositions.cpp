@@ -1,7 +1,9 @@
 #include <algorithm>
+#include <cmath>
 #include <functional>
 
 #include "planner_svc/timeline_htn/checking/parts.hpp"
+#include "planner_svc/timeline_htn/model/bounds.hpp"
 
 namespace roci::planner::timeline_htn::checking {
 
@@ -181,8 +183,9 @@ std::optional<temporal::Window> bounds_of_constraint(const model::Model& model,
   const auto read = [&](const model::Expression& expression, Duration& bound) {
     if (expression.empty()) return true;
     const auto number = evaluate(model, expression, binding);
-    if (number) bound = temporal::seconds(*number);
-    return number.has_value();
+    if (!number || std::abs(*number) > temporal::to_seconds(model::kLongestDuration)) return false;
+    bound = temporal::seconds(*number);
+    return true;
   };
   if (!read(constraint.lower, out.lower) || !read(constraint.upper, out.upper)) return std::nullopt;
   return out;

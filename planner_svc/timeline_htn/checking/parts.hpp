@@ -48,7 +48,8 @@ std::vector<Schedule> schedules(const Version& version);
 /// Executes a schedule: notes what of the model does not hold in it, and takes out decompositions that do not.
 void execute(const Version& version, const Schedule& schedule, Decompositions& decompositions, Faults& out);
 
-/// Returns the bounds of a constraint, or nothing where a table has no number for the objects.
+/// Returns the bounds of a constraint, or nothing where a table has no number for the objects, or one beyond
+/// kLongestDuration.
 std::optional<temporal::Window> bounds_of_constraint(const model::Model& model,
                                                      const model::SubgoalConstraint& constraint,
                                                      const Binding& binding);

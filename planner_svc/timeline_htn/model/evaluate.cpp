@@ -51,8 +51,7 @@ std::optional<temporal::Duration> duration(const Model& model, const Expression&
                                            std::span<const Index> objects, temporal::Duration otherwise) {
   if (expression.empty()) return otherwise;
   const std::optional<double> number = evaluate(model, expression, objects);
-  if (!number || *number < 0 || *number > temporal::to_seconds(kLongestDuration)) return std::nullopt;
-  return temporal::seconds(*number);
+  return number && *number >= 0 ? duration_of(*number) : std::nullopt;
 }
 
 }  // namespace
@@ -77,6 +76,11 @@ std::optional<double> evaluate(const Model& model, const Expression& expression,
   }
   if (stack.size() != 1 || !std::isfinite(stack.back())) return std::nullopt;
   return stack.back();
+}
+
+std::optional<temporal::Duration> duration_of(double seconds) {
+  if (!(std::abs(seconds) <= temporal::to_seconds(kLongestDuration))) return std::nullopt;
+  return temporal::seconds(seconds);
 }
 
 bool has_row(const Relation& relation, const std::vector<Index>& row) {

@@ -16,6 +16,9 @@ namespace roci::planner::timeline_htn::model {
 std::optional<double> evaluate(const Model& model, const Expression& expression,
                                std::span<const Index> objects);
 
+/// Returns the seconds as a duration, or nothing where they are above kLongestDuration, forwards or backwards.
+std::optional<temporal::Duration> duration_of(double seconds);
+
 /// Returns whether the test holds. A comparison with a number that there is not does not.
 bool holds(const Model& model, const Test& test, std::span<const Index> objects);
 

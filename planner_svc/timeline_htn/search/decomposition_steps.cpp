@@ -1,6 +1,5 @@
 // Steps that give a complex state one of its behaviours: its conditions, its parts and the time between them.
 #include <algorithm>
-#include <cmath>
 
 #include "planner_svc/timeline_htn/search/partial_plan.hpp"
 
@@ -181,8 +180,7 @@ bool PartialPlan::add_part_constraints(Index activity, const Behaviour& behaviou
                             Duration otherwise) -> std::optional<Duration> {
       if (expression.empty()) return otherwise;
       const auto value = model::evaluate(ground_->model(), expression, objects);
-      if (!value || std::abs(*value) > 1e9) return std::nullopt;
-      return temporal::seconds(*value);
+      return value ? model::duration_of(*value) : std::nullopt;
     };
     const auto lower = number(constraint.lower, -no_bound), upper = number(constraint.upper, no_bound);
     if (!lower || !upper || !constrain(point(constraint.from), point(constraint.to), *lower, *upper))

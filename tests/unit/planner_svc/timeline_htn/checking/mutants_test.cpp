@@ -193,6 +193,14 @@ TEST(TimelineChecker, RefusesDecompositionsThatAreNoBehaviours) {
     water.constraints.push_back({{1, true}, {2, false}, {{model::Operator::constant, 0, 0, {}}}, {}});
   }),
               Contains(HasSubstr("the network does not imply its")));
+  EXPECT_THAT(plan.under([](auto& m) {
+    const auto seconds = [](double number) {
+      return model::Expression{{model::Operator::constant, number, 0, {}}};
+    };
+    behaviour(m, "water").constraints.push_back({{1, true}, {2, false}, seconds(-5e12), {}});
+  }),
+              Contains(HasSubstr("the network does not imply its")))
+      << "the search has no such behaviour, either";
   EXPECT_THAT(plan.under([](auto& m) { m.behaviours.erase(m.behaviours.begin()); }),
               Contains(HasSubstr("no behaviour achieves it")));
   EXPECT_THAT(plan.after([](auto& p) {

@@ -241,6 +241,23 @@ TEST(TimelineModelFaults, BehavioursThatContradictThemselvesInTimeAreNamed) {
   });
 }
 
+// A time beyond 64 bits of microseconds would be any number.
+TEST(TimelineModelFaults, ATimeBetweenSubgoalsIsBounded) {
+  const std::string remedy =
+      " is no number, or beyond 1000000000 s (31 years); write a smaller one, or 'none'";
+  expect_faults({
+      {"drive before tell [0, 60]", "drive before tell [0, 1e13]",
+       "m.yaml:40:5: behaviour 'step': a bound of the time from drive.end to tell.start" + remedy},
+      {"drive before tell [0, 60]", "drive before tell [-1e15, none]",
+       "a bound of the time from drive.end to tell.start" + remedy},
+      {"drive before tell [0, 60]", "self.start to tell.end [0, 1000000001]",
+       "a bound of the time from self.start to tell.end" + remedy},
+      {"drive before tell [0, 60]", "drive before tell [0, 1 / (1 - 1)]", remedy},
+  });
+  for (const char* bounds : {"[0, 1000000000]", "[-1000000000, none]"})
+    EXPECT_THAT(faults_of(with(kSound, "tell [0, 60]", std::string("tell ") + bounds)), testing::IsEmpty());
+}
+
 TEST(TimelineModelFaults, AreToldAllAtOnce) {
   std::string text = with(kSound, "drive: wheels.drive(from, to)", "drive: weels.drive(from, to)");
   text = with(text, "retries: 2", "retries: x");
