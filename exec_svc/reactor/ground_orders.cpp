@@ -172,8 +172,7 @@ GroundOrders::Ruling GroundOrders::drop(const Order& order) {
 GroundOrders::Ruling GroundOrders::relaunch(Time now) {
   if (!stopped())
     return refused("no plan was stopped; the robot is " + std::string(to_string(state_->phase)));
-  if (!state_->beliefs.active().empty())
-    return refused(state_->beliefs.active().front()->name + " is not inactive yet; send it again");
+  if (std::string fault = fault_of_rest(); !fault.empty()) return refused(fault);
   std::set<std::string> dropped;
   for (const auto& [activity, key] : dropped_) dropped.insert(activity);
   if (std::string fault = plan_->relaunch(now, dropped); !fault.empty()) return refused(fault);
@@ -215,6 +214,14 @@ std::string GroundOrders::fault_of_commanding() const {
     return "a plan is being made";
   if (state_->phase == MissionPhase::executing && !is_of_single_commands(plan_->executive().plan()))
     return plan_->name() + " runs; wait for its end, or stop it (roci order safe)";
+  return state_->phase == MissionPhase::safe ? fault_of_rest() : "";
+}
+
+/// Returns what a robot that is made safe waits for before anything is commanded anew, or an empty text.
+std::string GroundOrders::fault_of_rest() const {
+  if (const auto active = state_->beliefs.active(); !active.empty())
+    return active.front()->name + " is not inactive yet; send it again";
+  if (plan_->outcome().kind == OutcomeKind::cancelling) return "commands are being cancelled; send it again";
   return "";
 }
 

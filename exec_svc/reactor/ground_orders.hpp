@@ -60,6 +60,7 @@ class GroundOrders {
   Ruling make_safe(temporal::Time now, const orders::Order& order);
 
   std::string fault_of_commanding() const;
+  std::string fault_of_rest() const;
   std::string fault_of_waiting(const std::string& activity) const;
   void plan_if_none_runs(const std::string& reason);
   void move(const orders::IssuedKey& key, const Ruling& ruling);

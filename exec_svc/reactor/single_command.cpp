@@ -60,12 +60,13 @@ SingleCommand plan_of_command(const orders::Order& order, const mission::Mission
   out.plan.engine = kGround;
   out.plan.origin = now;
   if (is_of_single_commands(executive.plan())) {
-    for (const executive::StepStatus& step : executive.running()) {
-      const PlanActivity& running = *executive.activity(step.activity);
-      if (running.subsystem == component->name)
-        return refused(component->name + " carries out " + running.id +
+    for (const executive::StepStatus& step : executive.steps()) {
+      if (is_over(step.state)) continue;
+      const PlanActivity& given = *executive.activity(step.activity);
+      if (given.subsystem == component->name)
+        return refused(component->name + " carries out " + given.id +
                        "; wait for its end, or stop it (roci order safe)");
-      place(out.plan, running);
+      place(out.plan, given);
     }
   }
   out.activity = "p" + std::to_string(version) + ".1-" + what->name;

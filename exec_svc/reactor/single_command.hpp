@@ -22,8 +22,8 @@ struct SingleCommand {
   std::string fault;     ///< in plain words; not empty: there is no plan
 };
 
-/// Makes the plan in which an order of kind `command` is carried out: that command, and the single commands that run,
-/// which go on. A component that carries one out takes no other.
+/// Makes the plan in which an order of kind `command` is carried out: that command, and the single commands that have
+/// not ended, which go on, or begin. A component that carries one out takes no other.
 SingleCommand plan_of_command(const orders::Order& order, const mission::MissionModel& mission,
                               std::uint32_t version, temporal::Time now,
                               const executive::Executive& executive);

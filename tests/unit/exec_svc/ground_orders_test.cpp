@@ -18,6 +18,7 @@ namespace {
 
 using ::testing::Contains;
 using ::testing::ElementsAre;
+using ::testing::Field;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
@@ -73,6 +74,17 @@ class OrderTest : public ReactorTest {
       if (status.key.id == std::to_string(number)) out = status.reason;
     return out;
   }
+  // A cancel that is not heard leaves the camera at work.
+  void obey(const executive::Command& command) override {
+    if (hears_cancels || command.action != executive::CommandAction::cancel)
+      return ReactorTest::obey(command);
+    commands.push_back(command);
+  }
+  static Order image(const std::string& name) {
+    Order out = order(OrderKind::command, "camera");
+    out.content = state("image", {"image=" + name});
+    return out;
+  }
   std::vector<std::string> images_begun() const {
     std::vector<std::string> out;
     for (const executive::Command& command : commands)
@@ -86,6 +98,7 @@ class OrderTest : public ReactorTest {
   static inline const std::vector<OrderStage> kRefused{OrderStage::received, OrderStage::refused};
   static inline const std::vector<OrderStage> kAccepted{OrderStage::received, OrderStage::accepted};
   int given = 0;
+  bool hears_cancels = true;
 };
 
 TEST_F(OrderTest, HoldStartsNothingNewAndReleaseGoesOn) {
@@ -135,11 +148,6 @@ TEST_F(OrderTest, OneActivityIsHeldAlone) {
 
 // R128, E1: a single command runs as a plan of the ground's own.
 TEST_F(OrderTest, TheGroundCommandsAComponentItself) {
-  const auto image = [](const std::string& name) {
-    Order out = order(OrderKind::command, "camera");
-    out.content = state("image", {"image=" + name});
-    return out;
-  };
   at(1, level(AutonomyLevel::e1));
   at(20, image("one"));
   at(30, image("two"));
@@ -160,9 +168,48 @@ TEST_F(OrderTest, TheGroundCommandsAComponentItself) {
   EXPECT_EQ(reactor.last_executed()->activities.at(0).state, temporal::ActivityState::failed);
 }
 
+TEST_F(OrderTest, CommandsThatComeTogetherAreAllGiven) {
+  Order drive = order(OrderKind::command, "nav");
+  drive.content = state("drive", {"to=w1"});
+  at(1, level(AutonomyLevel::e1));
+  at(20, image("one"));
+  at(20, drive);
+  at(20, image("two"));
+  run(30, robot_and({}));
+  EXPECT_EQ(stages(2), kApplied);
+  EXPECT_EQ(stages(3), kApplied);
+  EXPECT_THAT(reason(4), HasSubstr("camera carries out p1.1-image; wait for its end"));
+  EXPECT_THAT(images_begun(), ElementsAre("one"));
+  EXPECT_THAT(commands, Contains(Field(&executive::Command::command_name, "drive")));
+}
+
+TEST_F(OrderTest, TheGroundCommandsNothingWhileTheRobotIsMadeSafe) {
+  at(5, level(AutonomyLevel::e3));
+  at(20, order(OrderKind::safe));
+  at(21, order(OrderKind::release));
+  at(22, image("one"));
+  Order drive = order(OrderKind::command, "nav");
+  drive.content = state("drive", {"to=w1"});
+  at(23, drive);
+  other_events.emplace(seconds(24), [this] {
+    pending.observations.push_back({"rover.camera", state("idle")});
+  });
+  at(24.5, drive);
+  hears_cancels = false;
+  run(22.5, robot_and({photo("1")}));
+  ASSERT_EQ(stages(3), kApplied);
+  EXPECT_THAT(reason(4), HasSubstr("camera is not inactive yet"));
+  run(100, {});
+  EXPECT_THAT(reason(5), HasSubstr("camera is not inactive yet"));
+  EXPECT_THAT(reason(6), HasSubstr("commands are being cancelled"));
+  EXPECT_THAT(trace, Contains("robot.safe")) << "the watch goes on";
+  at(110, image("one"));
+  run(120, {});
+  EXPECT_EQ(stages(7), kApplied);
+}
+
 TEST_F(OrderTest, TheGroundCommandsNothingBesideAPlanOrUnderAHold) {
-  Order image = order(OrderKind::command, "camera");
-  image.content = state("image", {"image=one"});
+  const Order image = this->image("one");
   at(20, image);
   run(30, robot_and({photo("1"), photo("2")}));
   EXPECT_THAT(reason(1), HasSubstr("plan 1 runs"));
