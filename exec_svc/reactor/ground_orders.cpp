@@ -188,7 +188,12 @@ GroundOrders::Ruling GroundOrders::relaunch(Time now) {
 
 GroundOrders::Ruling GroundOrders::make_safe(Time now, const Order& order) {
   state_->authority.hold_all(true);
-  if (state_->phase != MissionPhase::safe) safing_->make_safe(now, "ordered by " + order.key.issuer);
+  const std::string reason = "ordered by " + order.key.issuer;
+  if (state_->phase == MissionPhase::safe) {
+    safing_->make_safe_again(now, reason);
+  } else {
+    safing_->make_safe(now, reason);
+  }
   safe_due_.push_back(order.key);
   return {OrderStage::accepted};
 }

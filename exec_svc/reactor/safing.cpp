@@ -35,6 +35,17 @@ void Safing::begin(temporal::Time now, const std::string& reason, const std::str
   send_fallbacks();
   for (const goals::GoalKey& key : state_->open_goals())
     state_->set_goal(key, goals::GoalState::pending, "waiting for " + goals_wait_for + ": " + reason);
+  await(now, reason);
+}
+
+void Safing::make_safe_again(temporal::Time now, const std::string& reason) {
+  std::erase_if(fallbacks_, [](const auto& one) { return one.second.answered; });
+  ++round_;  // watch() sends those that lack
+  unheard_ = false;
+  await(now, reason);
+}
+
+void Safing::await(temporal::Time now, const std::string& reason) {
   reason_ = reason;
   awaited_ = true;
   told_ = false;

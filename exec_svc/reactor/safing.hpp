@@ -39,6 +39,9 @@ class Safing {
   /// Does the same for a robot that was not heard when it was to stop, as over a broken link. Once it was observed to
   /// be safe a plan is wanted, and the ground is not waited for.
   void make_safe_unheard(temporal::Time now, const std::string& reason);
+  /// Makes a robot safe once more that was made safe: what is active still, or again, gets another fall-back, but where
+  /// an answer to the newest one is awaited.
+  void make_safe_again(temporal::Time now, const std::string& reason);
 
   /// Sends every component that is in an active state its fallback command, under a key of its own.
   void send_fallbacks();
@@ -68,6 +71,7 @@ class Safing {
 
  private:
   void begin(temporal::Time now, const std::string& reason, const std::string& goals_wait_for);
+  void await(temporal::Time now, const std::string& reason);
   void send_fallback(const mission::Component&);
   void repeat_lost(temporal::Time now);
   void confirm(temporal::Time now);

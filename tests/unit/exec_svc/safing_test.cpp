@@ -31,7 +31,7 @@ class SafingTest : public ReactorTest {
       pending.epoch = command.epoch + 4;
       return;
     }
-    if (answers) pending.acks.push_back({command.activity, 1, CommandStage::completed, "done", ""});
+    if (answers) pending.acks.push_back({command.activity, 1, answer, "done", ""});
     if (stops) pending.observations.push_back({"rover.nav", state("idle-at", {"here"})});
   }
 
@@ -40,14 +40,23 @@ class SafingTest : public ReactorTest {
     ReactorInputs inputs = robot_and({});
     inputs.observations.push_back({"rover.nav", state("going-to", {"ridge"})});
     inputs.epoch = 3;
-    orders::Order order;
-    order.key = {"ground", "safe"};
-    order.kind = orders::OrderKind::safe;
-    inputs.ground_orders.push_back(order);
+    inputs.ground_orders.push_back(safe("safe"));
     return inputs;
+  }
+  static orders::Order safe(const std::string& id) {
+    orders::Order order;
+    order.key = {"ground", id};
+    order.kind = orders::OrderKind::safe;
+    return order;
+  }
+  orders::OrderStage stage_of(const std::string& id) const {
+    const auto newest = std::ranges::find(order_stages.rbegin(), order_stages.rend(), id,
+                                          [](const orders::OrderStatus& status) { return status.key.id; });
+    return newest->stage;
   }
 
   bool answers = true;
+  CommandStage answer = CommandStage::completed;
   bool stops = true;
   int refuse_epochs = 0;
   std::vector<Command> fallbacks;
@@ -118,6 +127,45 @@ TEST_F(SafingTest, AnOwnerThatComesBackIsToldToStopAgain) {
   EXPECT_EQ(fallbacks.size(), before + 1);
   EXPECT_NE(fallbacks.back().activity, fallbacks.front().activity);
   EXPECT_EQ(trace.back(), "robot.safe");
+}
+
+TEST_F(SafingTest, OrderedAgainAFailedFallbackIsTriedAgain) {
+  stops = false;
+  answer = CommandStage::failed;
+  run(100, driving());
+  EXPECT_THAT(trace, Contains("fallback.failed"));
+  EXPECT_THAT(trace, Not(Contains("robot.safe")));
+  stops = true;
+  answer = CommandStage::completed;
+  ReactorInputs again;
+  again.ground_orders.push_back(safe("again"));
+  run(110, again);
+  ASSERT_EQ(fallbacks.size(), 2U);
+  EXPECT_NE(fallbacks[1].activity, fallbacks[0].activity);
+  EXPECT_EQ(trace.back(), "robot.safe");
+  EXPECT_EQ(stage_of("safe"), orders::OrderStage::applied);
+  EXPECT_EQ(stage_of("again"), orders::OrderStage::applied);
+}
+
+TEST_F(SafingTest, OrderedAgainWhatHasBecomeActiveIsStopped) {
+  run(30, driving());
+  ASSERT_EQ(trace.back(), "robot.safe");
+  ReactorInputs again;
+  again.observations.push_back({"rover.nav", state("going-to", {"ridge"})});
+  again.ground_orders.push_back(safe("again"));
+  run(40, again);
+  EXPECT_EQ(fallbacks.size(), 2U);
+  EXPECT_EQ(trace.back(), "robot.safe");
+  EXPECT_EQ(stage_of("again"), orders::OrderStage::applied);
+}
+
+TEST_F(SafingTest, OrderedAgainAFallbackThatIsNotAnsweredIsAwaited) {
+  stops = answers = false;
+  run(3, driving());
+  ReactorInputs again;
+  again.ground_orders.push_back(safe("again"));
+  run(4, again);
+  EXPECT_EQ(fallbacks.size(), 1U) << "beside another one it could be refused";
 }
 
 TEST_F(SafingTest, AnotherExecutivesAnswerIsNone) {
