@@ -240,6 +240,10 @@ void GroundOrders::settle() {
       plan_->outcome().kind != OutcomeKind::cancelling) {
     for (const IssuedKey& key : std::exchange(safe_due_, {})) move(key, {});
   }
+  if (state_->out.adopted) {
+    for (const auto& [activity, key] : std::exchange(dropped_, {}))
+      move(key, refused("its plan was replaced by " + plan_->name()));
+  }
   state_->out.order_statuses = book_.take_changes();
 }
 

@@ -369,6 +369,28 @@ TEST_F(OrderTest, AStoppedPlanIsLaunchedAgainWithoutWhatWasDropped) {
   EXPECT_THAT(trace, Contains("plan.finished"));
 }
 
+TEST_F(OrderTest, WhatIsDroppedFromAStoppedPlanGoesWithIt) {
+  at(5, level(AutonomyLevel::e2));
+  camera_works = false;
+  run(200, robot_and({photo("1"), photo("2")}));
+  at(300, order(OrderKind::drop, "p1.2-take-image"));
+  run(305, {});
+  ASSERT_EQ(stages(2), kAccepted);
+  at(310, level(AutonomyLevel::e4));
+  run(320, {});
+  ASSERT_EQ(reactor.plan_version(), 2U);
+  EXPECT_EQ(stages(2), (std::vector{OrderStage::received, OrderStage::accepted, OrderStage::refused}));
+  EXPECT_THAT(reason(2), HasSubstr("its plan was replaced"));
+  at(321, level(AutonomyLevel::e2));
+  run(500, {});
+  ASSERT_EQ(reactor.phase(), MissionPhase::safe);
+  camera_works = true;
+  at(510, order(OrderKind::relaunch));
+  run(1000, {});
+  EXPECT_EQ(stages(2).size(), 3U) << "no later relaunch applies it";
+  EXPECT_EQ(reactor.outcome(), "achieved");
+}
+
 TEST_F(OrderTest, AFailedActivityIsTriedAgainByARelaunchUnderItsNextAttempt) {
   at(5, level(AutonomyLevel::e2));
   camera_works = false;
