@@ -25,6 +25,8 @@ class Authority {
   /// Returns false if the activity was not held.
   bool release(const std::string& activity) { return held_activities_.erase(activity) > 0; }
   void approve(const std::string& activity) { approved_.insert(activity); }
+  /// Ends an approval, which serves one start. Returns false if there was none.
+  bool withdraw_approval(const std::string& activity) { return approved_.erase(activity) > 0; }
 
   /// Whether a plan may take the place of one that runs or broke.
   bool may_replan() const { return level_ == mission::AutonomyLevel::e4 && !held_; }

@@ -334,6 +334,7 @@ std::vector<Observation> RunningPlan::changed_conditions() {
 
 void RunningPlan::forward(Outputs done, Time now) {
   conclude(done.changes, now);
+  end_approvals(done.changes);
   ReactorOutputs& out = state_->out;
   std::move(done.commands.begin(), done.commands.end(), std::back_inserter(out.commands));
   for (const StepStatus& step : done.changes) record_.note(step);
@@ -341,6 +342,15 @@ void RunningPlan::forward(Outputs done, Time now) {
   for (executive::DecisionStatus& decision : done.decisions)
     out.decisions.push_back({std::move(decision), version_});
   if (done.next_wake) state_->wake_at(*done.next_wake);
+}
+
+/// Withdraws the approvals of what has begun, or will not begin any more.
+void RunningPlan::end_approvals(const std::vector<StepStatus>& changes) {
+  bool fewer = false;
+  for (const StepStatus& step : changes)
+    if (step.state != temporal::ActivityState::waiting)
+      fewer = state_->authority.withdraw_approval(step.activity) || fewer;
+  if (fewer) permit(state_->authority.permissions());
 }
 
 /// Reports the windows of what starts next again where real events have moved them.

@@ -116,6 +116,7 @@ class RunningPlan {
   void close(ExecutedOutcome outcome, std::string reason);
   void close_record();
   void conclude(const std::vector<executive::StepStatus>& changes, temporal::Time now);
+  void end_approvals(const std::vector<executive::StepStatus>& changes);
   void watch(const temporal::FlexiblePlan& plan, bool launched_again = false);
   std::vector<executive::Observation> changed_conditions();
   void tell_observed(const std::vector<executive::Observation>& observations, executive::Inputs& told) const;

@@ -249,6 +249,27 @@ TEST_F(OrderTest, AtE1EachActivityWaitsForItsApproval) {
   EXPECT_EQ(reactor.outcome(), "achieved");
 }
 
+// What the ground has approved before the plan was stopped, it approves again.
+TEST_F(OrderTest, AnApprovalServesOneStart) {
+  at(1, level(AutonomyLevel::e1));
+  planning_time = seconds(1);
+  camera_works = false;
+  at(100, order(OrderKind::approve, "p1.1-take-image"));
+  at(101, order(OrderKind::approve, "p1.2-take-image"));
+  run(200, robot_and({photo("1"), photo("2")}));
+  ASSERT_EQ(reactor.phase(), MissionPhase::safe);
+  camera_works = true;
+  at(300, order(OrderKind::relaunch));
+  run(400, {});
+  EXPECT_THAT(images_begun(), ElementsAre("image-1"));
+  at(400, order(OrderKind::approve, "p1.1-take-image"));
+  run(500, {});
+  EXPECT_THAT(images_begun(), ElementsAre("image-1", "image-1"));
+  at(500, order(OrderKind::approve, "p1.2-take-image"));
+  run(1000, {});
+  EXPECT_EQ(reactor.outcome(), "achieved");
+}
+
 TEST_F(OrderTest, BelowE4ABrokenPlanMakesSafeAndWaits) {
   at(20, level(AutonomyLevel::e3));
   camera_works = false;
