@@ -1,6 +1,7 @@
 #include "services/owner/command_ledger.hpp"
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
 namespace roci::services::owner {
@@ -19,6 +20,12 @@ bool stops(const Request& request) {
 
 bool falls_back(const Request& request) {
   return request.action == Action::execute && request.key.activity.starts_with(kFallbackPrefix);
+}
+
+// What a commander sends in its own name counts for what is kept of it; an epoch of issue is never later than the
+// epoch of who sends, which is checked.
+bool counts(const CommandKey& key, const std::string& sender, std::uint64_t epoch) {
+  return key.commander == sender && key.issued_epoch != 0 && key.issued_epoch <= epoch;
 }
 
 std::string named(const Request& request) {
@@ -46,15 +53,30 @@ Reception CommandLedger::receive(const Request& request, Time now) {
   }
   Reception taken = execute(request, now);
   const bool moves = request.command != kLeadCommand;
-  if (moves && taken.order == Reception::Order::carry_out)
-    leases_[{request.robot, request.subsystem}] = request.sender;
+  if (moves && taken.order == Reception::Order::carry_out) take_lease(request);
   return taken;
+}
+
+void CommandLedger::take_lease(const Request& request) {
+  Lease& lease = leases_[{request.robot, request.subsystem}];
+  records_.at(request.key).lease_before = std::exchange(lease, {request.sender, request.key});
+}
+
+/// A command that was rejected moves nothing, whoever sent it.
+void CommandLedger::give_lease_back(const CommandKey& key, const Record& record) {
+  const auto lease = leases_.find({record.robot, record.subsystem});
+  if (!record.lease_before || lease == leases_.end() || lease->second.by != key) return;
+  if (record.lease_before->holder.empty()) {
+    leases_.erase(lease);
+  } else {
+    lease->second = *record.lease_before;
+  }
 }
 
 CommandLedger::EpochStatus CommandLedger::epoch_status_of(const Request& request) const {
   const auto known = commanders_.find(request.sender);
   if (known == commanders_.end()) {
-    if (commanders_.size() >= kCommanders) return EpochStatus::unknown;
+    if (commanders_.size() >= kCommanders && replaceable().empty()) return EpochStatus::unknown;
     return request.epoch > kEpochJump ? EpochStatus::ahead : EpochStatus::current;
   }
   const Commander& newest = known->second;
@@ -90,7 +112,7 @@ std::optional<Reception> CommandLedger::refuse(const Request& request, EpochStat
     out.notice = Notice{"command.epoch_jump", request.sender + " commands in " + epoch + ", the newest is " +
                                                   std::to_string(newest)};
   } else {
-    say("too-many-commanders", std::to_string(kCommanders) + " others have commanded here");
+    say("too-many-commanders", std::to_string(kCommanders) + " others have open commands or leases here");
     out.ack->refused_epoch = false;
     out.notice = Notice{"command.foreign", request.sender + " is one commander too many and is refused"};
   }
@@ -98,7 +120,25 @@ std::optional<Reception> CommandLedger::refuse(const Request& request, EpochStat
 }
 
 void CommandLedger::raise(const Request& request) {
-  commanders_[request.sender] = {request.epoch, request.incarnation, request.number};
+  if (!commanders_.contains(request.sender) && commanders_.size() >= kCommanders) {
+    const std::string oldest = replaceable();
+    commanders_.erase(oldest);
+    retention_.forget(oldest);
+  }
+  commanders_[request.sender] = {request.epoch, request.incarnation, request.number, ++uses_};
+}
+
+/// Returns the commander that has commanded longest ago of those that have neither an open command nor a lease, or "".
+std::string CommandLedger::replaceable() const {
+  std::set<std::string> needed;
+  for (const auto& [key, record] : records_)
+    if (!is_last(record.status)) needed.insert(key.commander);
+  for (const auto& [subsystem, lease] : leases_) needed.insert(lease.holder);
+  const std::pair<const std::string, Commander>* oldest = nullptr;
+  for (const auto& one : commanders_)
+    if (!needed.contains(one.first) && (oldest == nullptr || one.second.used < oldest->second.used))
+      oldest = &one;
+  return oldest == nullptr ? "" : oldest->first;
 }
 
 Reception CommandLedger::execute(const Request& request, Time now) {
@@ -110,14 +150,15 @@ Reception CommandLedger::execute(const Request& request, Time now) {
     if (!record->second.status) return {};  // its status is still to come
     return {Reception::Order::nothing, answer(request.key, now)};
   }
-  const bool counts = !stops(request) && !falls_back(request);
-  if (counts) raise(request);
+  const bool checked = !stops(request) && !falls_back(request);
+  if (checked) raise(request);
   record->second.robot = request.robot;
   record->second.subsystem = request.subsystem;
   record->second.latest_end = request.latest_end;
   record->second.plan = request.plan;
-  retention_.taken(request.key, request.plan);
-  entries_.push_back({request.key, request.sender, counts ? request.epoch : 0, std::nullopt, request.plan});
+  record->second.counts = checked && counts(request.key, request.sender, request.epoch);
+  if (record->second.counts) retention_.taken(request.key, request.plan);
+  entries_.push_back({request.key, request.sender, checked ? request.epoch : 0, std::nullopt, request.plan});
   return {Reception::Order::carry_out, std::nullopt};
 }
 
@@ -163,28 +204,35 @@ Ack CommandLedger::refuse_unleased(const Request& request, std::uint64_t holder_
 }
 
 void CommandLedger::release(const std::string& commander) {
-  std::erase_if(leases_, [&](const auto& lease) { return lease.second == commander; });
+  std::erase_if(leases_, [&](const auto& lease) { return lease.second.holder == commander; });
+  for (auto& [key, record] : records_)
+    if (record.lease_before && record.lease_before->holder == commander) record.lease_before->holder.clear();
 }
 
 std::string CommandLedger::lease_holder(const std::string& robot, const std::string& subsystem) const {
   const auto lease = leases_.find({robot, subsystem});
-  return lease == leases_.end() ? "" : lease->second;
+  return lease == leases_.end() ? "" : lease->second.holder;
 }
 
 void CommandLedger::restore(const LedgerEntry& entry) {
   if (entry.epoch > 0) {
     Commander& commander = commanders_[entry.sender];
     commander.epoch = std::max(commander.epoch, entry.epoch);
+    commander.used = ++uses_;
   }
   if (entry.kind == LedgerEntry::Kind::epoch) return;
-  if (entry.kind == LedgerEntry::Kind::forgotten)
-    return retention_.restore(entry.key.commander, {entry.key.issued_epoch, entry.plan});
+  if (entry.kind == LedgerEntry::Kind::forgotten) {
+    if (commanders_.contains(entry.key.commander))
+      retention_.restore(entry.key.commander, {entry.key.issued_epoch, entry.plan});
+    return;
+  }
   Record& record = records_[entry.key];
   if (entry.status) {
     record.status = entry.status;
   } else {
     record.plan = entry.plan;
-    retention_.taken(entry.key, entry.plan);
+    record.counts = counts(entry.key, entry.sender, entry.epoch);
+    if (record.counts) retention_.taken(entry.key, entry.plan);
   }
   if (is_last(entry.status)) end(entry.key, record);
 }
@@ -206,7 +254,7 @@ void CommandLedger::end_restored() {
     if (record.status) continue;
     record.status =
         CommandStatus{Stage::failed, "owner-restarted", "its owner was started anew while it ran"};
-    retention_.ended(key, record.plan);
+    retention_.ended(key, record.plan, record.counts);
   }
 }
 
@@ -225,7 +273,7 @@ Reception CommandLedger::cancel(const Request& request, Time now) {
 
 /// The record may be gone then.
 void CommandLedger::end(const CommandKey& key, const Record& record) {
-  retention_.ended(key, record.plan);
+  retention_.ended(key, record.plan, record.counts);
   for (const CommandKey& old : retention_.take_due()) records_.erase(old);
 }
 
@@ -239,18 +287,27 @@ std::optional<Ack> CommandLedger::answer_if_forgotten(const Request& request, Ti
 
 std::vector<LedgerEntry> CommandLedger::kept() const {
   std::vector<LedgerEntry> out;
-  for (const auto& [name, commander] : commanders_)
-    out.push_back({{"", 0, name, 0}, name, commander.epoch, std::nullopt, 0, LedgerEntry::Kind::epoch});
-  for (const auto& [name, mark] : retention_.forgotten_marks())
-    out.push_back({{"", 0, name, mark.epoch}, "", 0, std::nullopt, mark.plan, LedgerEntry::Kind::forgotten});
+  const auto taken = [&](const CommandKey& key, const Record& record) -> LedgerEntry {
+    const bool known = record.counts && commanders_.contains(key.commander);
+    return {key, known ? key.commander : "", known ? key.issued_epoch : 0, std::nullopt, record.plan};
+  };
   for (const Retention::Ended& one : retention_.ended()) {
     const auto record = records_.find(one.key);
     if (record == records_.end()) continue;
-    out.push_back({one.key, "", 0, std::nullopt, one.mark.plan});
+    out.push_back(taken(one.key, record->second));
     out.push_back({one.key, "", 0, record->second.status});
   }
   for (const auto& [key, record] : records_)
-    if (!is_last(record.status)) out.push_back({key, "", 0, std::nullopt, record.plan});
+    if (!is_last(record.status)) out.push_back(taken(key, record));
+  std::vector<const std::pair<const std::string, Commander>*>
+      by_use;  // the next process takes them in in this order
+  for (const auto& one : commanders_) by_use.push_back(&one);
+  std::ranges::sort(by_use, {}, [](const auto* one) { return one->second.used; });
+  for (const auto* one : by_use)
+    out.push_back(
+        {{"", 0, one->first, 0}, one->first, one->second.epoch, std::nullopt, 0, LedgerEntry::Kind::epoch});
+  for (const auto& [name, mark] : retention_.forgotten_marks())
+    out.push_back({{"", 0, name, mark.epoch}, "", 0, std::nullopt, mark.plan, LedgerEntry::Kind::forgotten});
   return out;
 }
 
@@ -264,6 +321,8 @@ std::optional<Ack> CommandLedger::say(const CommandKey& key, CommandStatus statu
   Record* record = open_record(key);
   if (!record || status.stage == Stage::cancel_failed || status.stage == Stage::unknown) return std::nullopt;
   if (!record->status) record->accepted = now;
+  if (status.stage == Stage::rejected) give_lease_back(key, *record);
+  record->lease_before.reset();
   if (status.stage != Stage::accepted && status.stage != Stage::rejected && !status.results.duration) {
     status.results.duration = now - record->accepted;
   }

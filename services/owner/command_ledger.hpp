@@ -56,10 +56,12 @@ struct LedgerEntry {
 /// further ahead is refused and told the newest. A stop is taken from anybody; a fall-back from who holds the
 /// subsystem's lease, or from anybody while nobody does.
 ///
-/// The commander whose command a subsystem took last holds its lease (Gray and Cheriton, 1989) until release().
+/// The commander whose command a subsystem took last holds its lease (Gray and Cheriton, 1989) until release(). A command
+/// that is rejected gives the lease back to who held it before.
 class CommandLedger {
  public:
-  /// Bounds the commanders that have an epoch here; others are refused.
+  /// Bounds the commanders that have an epoch here. A new one takes the place of the one that has commanded longest ago
+  /// and has neither an open command nor a lease, which is forgotten; if there is none it is refused.
   static constexpr std::size_t kCommanders = 64;
 
   Reception receive(const Request&, temporal::Time now);
@@ -112,6 +114,10 @@ class CommandLedger {
   void end_restored();
 
  private:
+  struct Lease {
+    std::string holder;
+    CommandKey by;  // the command that took it
+  };
   struct Record {
     std::string robot;
     std::string subsystem;
@@ -121,12 +127,15 @@ class CommandLedger {
     bool cancelling = false;
     bool repaired = false;
     std::uint32_t plan = 0;
+    bool counts = false;                // for retention_
+    std::optional<Lease> lease_before;  // until its first status
   };
   // Holds the newest epoch of one sender, and which of its processes has used it.
   struct Commander {
     std::uint64_t epoch = 0;
     std::uint32_t incarnation = 0;
     std::uint64_t number = 0;
+    std::uint64_t used = 0;  // orders commanders by what they sent last
   };
   enum class EpochStatus { current, stale, doubled, ahead, unknown };
 
@@ -134,6 +143,9 @@ class CommandLedger {
   std::optional<Reception> refuse(const Request&, EpochStatus, temporal::Time now) const;
   Reception refuse_fallback(const Request&, const std::string& holder, temporal::Time now) const;
   void raise(const Request&);
+  std::string replaceable() const;
+  void take_lease(const Request&);
+  void give_lease_back(const CommandKey&, const Record&);
   Reception execute(const Request&, temporal::Time now);
   Reception execute_for_safety(const Request&, temporal::Time now);
   Reception cancel(const Request&, temporal::Time now);
@@ -142,8 +154,9 @@ class CommandLedger {
   void end(const CommandKey&, const Record&);
   Ack ack(const CommandKey&, CommandStatus, temporal::Time now) const;
 
-  std::map<std::string, Commander> commanders_;                        // by who sends
-  std::map<std::pair<std::string, std::string>, std::string> leases_;  // who holds it, by robot and subsystem
+  std::map<std::string, Commander> commanders_;                  // by who sends
+  std::map<std::pair<std::string, std::string>, Lease> leases_;  // by robot and subsystem
+  std::uint64_t uses_ = 0;
   std::map<CommandKey, Record> records_;
   Retention retention_;
   std::vector<LedgerEntry> entries_;

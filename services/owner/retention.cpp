@@ -10,15 +10,28 @@ void Retention::taken(const CommandKey& key, std::uint32_t plan) {
   newest = std::max(newest, IssueMark{key.issued_epoch, plan});
 }
 
-void Retention::ended(const CommandKey& key, std::uint32_t plan) {
-  ended_.push_back({key, {key.issued_epoch, plan}});
+void Retention::ended(const CommandKey& key, std::uint32_t plan, bool counts) {
+  ended_.push_back({key, {key.issued_epoch, plan}, counts});
+}
+
+void Retention::forget(const std::string& commander) {
+  newest_.erase(commander);
+  forgotten_.erase(commander);
+}
+
+IssueMark Retention::newest(const std::string& commander) const {
+  const auto known = newest_.find(commander);
+  return known == newest_.end() ? IssueMark{} : known->second;
 }
 
 std::vector<CommandKey> Retention::take_due() {
   std::vector<CommandKey> out;
   if (ended_.size() < look_again_at_) return out;
-  const auto is_old = [this](const Ended& one) { return one.mark < newest_[one.key.commander]; };
-  const auto without_plan = [&](const Ended& one) { return one.mark.plan == 0 && !is_old(one); };
+  const auto is_old = [this](const Ended& one) { return one.mark < newest(one.key.commander); };
+  const auto without_plan = [&](const Ended& one) {
+    const bool of_newest_plan = one.counts && one.mark.plan != 0 && one.mark == newest(one.key.commander);
+    return !of_newest_plan && !is_old(one);
+  };
   const auto many = static_cast<std::size_t>(std::ranges::count_if(ended_, without_plan));
   std::size_t surplus = many - std::min(many, kWithoutPlan);
   std::vector<Ended> kept;

@@ -233,6 +233,41 @@ TEST(CommandLedger, CommandersAreBounded) {
   EXPECT_EQ(ledger.receive(request("c", Action::execute, 1, "c1"), seconds(2)).order, Order::carry_out);
 }
 
+// A stranger with many names does not keep a commander out that comes later.
+TEST(CommandLedger, ACommanderWithoutAnOpenCommandOrALeaseGivesItsPlaceToANewOne) {
+  const auto begin = [](CommandLedger& ledger, const std::string& name, const std::string& subsystem) {
+    Request one = request("a-" + name, Action::execute, 7, name);
+    one.subsystem = subsystem;
+    return std::pair(ledger.receive(one, seconds(1)), one.key);
+  };
+  CommandLedger ledger;
+  begin(ledger, "open", "drill");
+  ledger.say(begin(ledger, "holder", "mast").second, {Stage::completed}, seconds(1));
+  for (std::size_t i = 0; i < 3 * CommandLedger::kCommanders; ++i) {
+    const auto [taken, key] = begin(ledger, "c" + std::to_string(i), "none" + std::to_string(i));
+    ASSERT_EQ(taken.order, Order::carry_out) << i;
+    ledger.say(key, {Stage::rejected, "unknown-component"}, seconds(1));
+  }
+  for (const char* name : {"open", "holder"}) EXPECT_EQ(ledger.newest_epoch(name), 7U) << name;
+  EXPECT_EQ(ledger.newest_epoch("c0"), 0U);
+  EXPECT_EQ(ledger.lease_holder("", "none9"), "") << "a rejected command takes no lease";
+
+  CommandLedger after;
+  for (const LedgerEntry& entry : ledger.kept()) after.restore(entry);
+  after.end_restored();
+  EXPECT_EQ(begin(after, "dedicated", "drill").first.order, Order::carry_out);
+  EXPECT_EQ(after.newest_epoch("c" + std::to_string(3 * CommandLedger::kCommanders - 1)), 7U)
+      << "who commanded last stays";
+}
+
+TEST(CommandLedger, ARejectedCommandGivesTheLeaseBack) {
+  CommandLedger ledger = with_running();
+  ledger.receive(request("b", Action::execute, 1, "other"), seconds(2));
+  EXPECT_EQ(ledger.lease_holder("", "drill"), "other");
+  ledger.say({"b", 1, "other"}, {Stage::rejected, "busy"}, seconds(2));
+  EXPECT_EQ(ledger.lease_holder("", "drill"), "");
+}
+
 TEST(CommandLedger, WhatWasKeptIsKnownToTheNextProcess) {
   CommandLedger before = with_running();
   Request other = request("b", Action::execute, 5);

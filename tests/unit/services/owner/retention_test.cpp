@@ -5,7 +5,9 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <limits>
 
 #include "services/owner/command_ledger.hpp"
 #include "services/owner/ledger_file.hpp"
@@ -106,8 +108,7 @@ TEST(Retention, WhatTellsNoPlanIsBoundedToo) {
   std::vector<CommandKey> forgotten;
   for (std::size_t i = 0; i < kStops; ++i) {
     const CommandKey key{"s" + std::to_string(i), 1, "stranger", 0};
-    retention.taken(key, 0);
-    retention.ended(key, 0);
+    retention.ended(key, 0, false);
     for (CommandKey& old : retention.take_due()) forgotten.push_back(std::move(old));
     ASSERT_LE(retention.ended().size(), 2 * Retention::kWithoutPlan);
     ASSERT_GE(retention.ended().size(), std::min(i + 1, Retention::kWithoutPlan));
@@ -115,6 +116,61 @@ TEST(Retention, WhatTellsNoPlanIsBoundedToo) {
   EXPECT_EQ(forgotten.size() + retention.ended().size(), kStops);
   EXPECT_EQ(forgotten.front().activity, "s0");
   EXPECT_FALSE(retention.forgotten({"new", 1, "stranger", 0}, 0)) << "a new one is not taken for an old one";
+}
+
+Request stop(const std::string& activity, const std::string& commander, std::uint64_t issued) {
+  Request out{
+      {activity, 1, commander, issued}, Action::execute, issued, "stranger", "rover", "nav", kStopCommand};
+  out.plan = 1;
+  return out;
+}
+
+CommandLedger restarted(const CommandLedger& before) {
+  CommandLedger after;
+  for (const LedgerEntry& entry : before.kept()) after.restore(entry);
+  after.end_restored();
+  return after;
+}
+
+// Its epochs are checked by nobody.
+TEST(Retention, AForgedStopMakesNoOtherCommandOld) {
+  constexpr std::uint64_t kFar = std::numeric_limits<std::uint64_t>::max();
+  for (const char* sender : {"stranger", "exec_svc"}) {
+    CommandLedger ledger;
+    fly(ledger, drive(0, 1));
+    Request forged = stop("s1", "exec_svc", kFar);
+    forged.sender = sender;
+    fly(ledger, forged);
+    Request foreign = drive(1, 1);
+    foreign.key.issued_epoch = foreign.epoch = 2;
+    foreign.sender = "stranger";
+    fly(ledger, foreign);
+    Request ahead = drive(2, 1);
+    ahead.key.issued_epoch = kFar;
+    fly(ledger, ahead);
+    for (std::size_t i = 3; i < kMany; ++i) fly(ledger, drive(i, 1));
+    fly(ledger, drive(kMany, 1));
+    CommandLedger after = restarted(ledger);
+    for (std::size_t i = 0; i < kMany; ++i) fly(after, drive(2 * kMany + i, 1));
+    EXPECT_EQ(after.receive(drive(5, 1), seconds(3)).ack->status.code, "done");
+  }
+}
+
+TEST(Retention, NoCommanderOfStopsIsKeptForGood) {
+  CommandLedger ledger = after_many();
+  for (std::size_t i = 0; i < kMany; ++i)
+    for (const std::uint64_t issued : {1, 2}) fly(ledger, stop("s", "c" + std::to_string(i), issued));
+  const auto is_mark = [](const LedgerEntry& entry) { return entry.kind == LedgerEntry::Kind::forgotten; };
+  EXPECT_EQ(std::ranges::count_if(ledger.kept(), is_mark), 1) << "that of exec_svc";
+}
+
+TEST(Retention, StopsThatTellAPlanAreBoundedToo) {
+  CommandLedger ledger;
+  fly(ledger, drive(0, 1));
+  for (std::size_t i = 0; i < 3 * Retention::kWithoutPlan; ++i)
+    fly(ledger, stop("s" + std::to_string(i), "exec_svc", 1));
+  EXPECT_LE(ledger.kept().size(), 4 * Retention::kWithoutPlan + 10);
+  EXPECT_EQ(ledger.receive(drive(0, 1, Action::query), seconds(3)).ack->status.code, "done");
 }
 
 TEST(Retention, ALaterEpochBeginsItsPlansAnew) {
