@@ -11,7 +11,7 @@ namespace roci::planner::utility_htn::cycle {
 
 using model::TaskIndex;
 using temporal::Duration, temporal::Time;
-using temporal::timelines::Index;
+using temporal::timelines::Constraint, temporal::timelines::Index;
 
 namespace {
 
@@ -197,8 +197,22 @@ Duration Cycle::length(const Block& block, std::size_t link) const {
              : duration(task);
 }
 
-// Data that turned out larger or smaller than foreseen make planned downlinks longer or shorter (R127); what would run
-// into something fixed or committed goes with a later one.
+// Returns until when a downlink that stands may last, at most until the wanted time: something that is fixed or committed
+// may need the same then, what it needs itself ends, as a view of Earth does, or the mission does.
+Time Cycle::room_until(const Link& of, Time wanted) const {
+  Time out = std::min({wanted, free_until(network_, blocks_, of), plan_end_, network_.tasks[of.task].closes});
+  for (const Constraint& needed : network_.tasks[of.task].constraints) {
+    const bool lasting = needed.phase == temporal::timelines::Phase::maintenance &&
+                         network_.timelines[needed.timeline].kind == temporal::timelines::Kind::state;
+    if (!lasting || !needed.admits(timelines_.value(needed.timeline, of.start))) continue;
+    for (const auto& each : timelines_.trajectory(needed.timeline, of.start, out))
+      if (!needed.admits(each.value)) out = std::min(out, std::max(of.start, each.time));
+  }
+  return out;
+}
+
+// Data that turned out larger or smaller than foreseen make planned downlinks longer or shorter (R127); what would last
+// longer than there is room goes with a later one.
 void Cycle::fit_downlinks() {
   if (delivery_ == nullptr) return;
   sessions_.look(blocks_, *delivery_);
@@ -207,9 +221,10 @@ void Cycle::fit_downlinks() {
       Link& each = one.links[i];
       if (each.stage != Stage::planned || !one.begun() || one.failed()) continue;
       const Duration now = each.end - each.start;
+      if (!network_.tasks[each.task].downlinks) continue;
       Duration takes = length(one, i);
-      if (takes > now)
-        takes = std::max(now, std::min(takes, free_until(network_, blocks_, each) - each.start));
+      if (const Duration room = room_until(each, each.start + takes) - each.start; takes > room)
+        takes = sessions_.length(blocks_, one, i, *delivery_, past_.values, room);
       if (takes == now) continue;
       each.end = each.start + takes;
       timelines_.move(task_id(one.number, i), each.start, each.end);

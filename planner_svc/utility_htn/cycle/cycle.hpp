@@ -174,6 +174,7 @@ class Cycle {
   temporal::Duration duration(model::TaskIndex task) const;
   temporal::Duration length(const Block& block, std::size_t link) const;
   void fit_downlinks();
+  temporal::Time room_until(const Link& of, temporal::Time wanted) const;
   struct Placement {
     temporal::Time start{0};
     temporal::Duration length{0};

@@ -54,7 +54,6 @@ std::optional<Cycle::Placement> Cycle::soonest(const Block& of, std::size_t link
     const std::optional<Time> start = first(starts.earliest);
     return start ? std::optional(Placement{*start, seen.duration}) : std::nullopt;
   }
-  const Duration wanted = sessions_.wanted(blocks_, of, link, *delivery_, past_.values);
   for (const bool at_least : {false, true}) {
     const std::vector<search::PlannedDownlink> others = others_begun(task_id(of.number, link), at_least);
     std::optional<Placement> shortest;
@@ -64,7 +63,7 @@ std::optional<Cycle::Placement> Cycle::soonest(const Block& of, std::size_t link
       seen.duration = least;
       if (delivery_->permits(task, *start, least, others, past_.values)) {
         const Duration permitted = sessions_.longest(blocks_, of, link, *start, *delivery_, past_.values);
-        seen.duration = std::max(least, std::min(wanted, permitted));
+        seen.duration = sessions_.wanted(blocks_, of, link, *delivery_, past_.values, permitted);
         if (!shortest) shortest = Placement{*start, least};
         start = first(*start);
         if (start && *start < end_of_sol) return Placement{*start, seen.duration};

@@ -45,7 +45,8 @@ void Sessions::look(const std::vector<Block>& blocks, const delivery::Delivery& 
 }
 
 Duration Sessions::wanted(const std::vector<Block>& blocks, const Block& of, std::size_t link,
-                          const delivery::Delivery& delivery, const model::Values& values) const {
+                          const delivery::Delivery& delivery, const model::Values& values,
+                          Duration permitted) const {
   const Link& at = of.links[link];
   if (at.told > Duration{0}) return at.told;
   const Duration least = temporal::seconds(model::duration_s(network_.tasks[at.task], values));
@@ -56,16 +57,18 @@ Duration Sessions::wanted(const std::vector<Block>& blocks, const Block& of, std
     for (const Block& other : blocks)
       if (other.number != of.number) requests.erase(chains_.chains[other.chain].task);
   }
-  return std::max(least, delivery.transmission(requests, values));
+  return std::max(least, delivery.transmission(requests, values, permitted));
 }
 
 Duration Sessions::length(const std::vector<Block>& blocks, const Block& of, std::size_t link,
-                          const delivery::Delivery& delivery, const model::Values& values) const {
+                          const delivery::Delivery& delivery, const model::Values& values,
+                          Duration room) const {
   const Link& at = of.links[link];
-  const Duration takes = wanted(blocks, of, link, delivery, values);
+  const Duration takes = wanted(blocks, of, link, delivery, values, temporal::no_bound);
   const Duration least = temporal::seconds(model::duration_s(network_.tasks[at.task], values));
   if (at.told > Duration{0} || takes <= least) return takes;
-  return std::max(least, std::min(takes, longest(blocks, of, link, at.start, delivery, values)));
+  const Duration permitted = std::min(room, longest(blocks, of, link, at.start, delivery, values));
+  return takes <= permitted ? takes : wanted(blocks, of, link, delivery, values, permitted);
 }
 
 Duration Sessions::longest(const std::vector<Block>& blocks, const Block& of, std::size_t link, Time start,

@@ -133,13 +133,22 @@ bool waits_for_downlink(const Existing& one) {
 }  // namespace
 
 temporal::Duration Delivery::transmission(const std::set<model::TaskIndex>& requests,
-                                          const model::Values& values) const {
-  double bytes = 0;
-  for (const Existing& one : existing_)
-    if (waits_for_downlink(one) && requests.contains(one.request))
-      bytes += static_cast<double>(one.data.bytes);
+                                          const model::Values& values, temporal::Duration longest) const {
   const double rate = rules_.bytes_per_s(values);
-  return rate > 0 ? temporal::seconds(std::ceil(bytes / rate)) : temporal::Duration{0};
+  if (rate <= 0) return temporal::Duration{0};
+  std::vector<DataProduct> waiting;
+  for (const Existing& one : existing_)
+    if (waits_for_downlink(one) && requests.contains(one.request)) waiting.push_back(one.data);
+  const double most_s = std::min(temporal::to_seconds(longest), kLongestSending_s);
+  double bytes = 0, taken_s = 0;
+  for (const std::size_t p : sending_order(waiting)) {
+    const double with_it = bytes + static_cast<double>(waiting[p].bytes);
+    const double takes_s = std::ceil(with_it / rate);
+    if (takes_s > most_s) continue;
+    bytes = with_it;
+    taken_s = takes_s;
+  }
+  return temporal::seconds(taken_s);
 }
 
 std::set<model::TaskIndex> Delivery::requests_with_data() const {

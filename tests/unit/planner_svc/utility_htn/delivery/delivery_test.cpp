@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <random>
+#include <tuple>
 
 #include "planner_svc/utility_htn/cycle/cycle.hpp"
 #include "planner_svc/utility_htn/delivery/first_fit.hpp"
@@ -264,6 +265,32 @@ class LongSessions : public DeliveryTest {
     delivery_->hear(trench);
     cycle_->doubt();
   }
+  void earth_sets_at(Time end) {
+    const auto earth = static_cast<temporal::timelines::Index>(network_.timelines.size());
+    network_.timelines.push_back({"earth", temporal::timelines::Kind::state, {"set", "risen"}});
+    model::Task& view = network_.tasks.emplace_back();
+    view.id = view.name = "earth_view";
+    view.fixed = true;
+    view.preferred_start = 30s;
+    view.duration = {temporal::to_seconds(end) - 30};
+    view.impacts = {{earth, temporal::ImpactKind::assign, temporal::ImpactWhen::at_start, {1}},
+                    {earth, temporal::ImpactKind::assign, temporal::ImpactWhen::at_end, {0}}};
+    task("send_sample").constraints = {
+        {.timeline = earth, .phase = temporal::timelines::Phase::maintenance, .states = 2}};
+  }
+  // Digging and imaging take the time of the network, so that sending comes at 180 s.
+  void image_until_now() {
+    cycle_->withdraw(task_named(network_, "view"));
+    const auto number = [&](const std::string& id) {
+      return std::ranges::find(cycle_->blocks(), task_named(network_, id),
+                               [&](const auto& one) { return chains_.chains[one.chain].task; })
+          ->number;
+    };
+    cycle_->begun(cycle::task_id(number("earth_view"), 0), 30s);
+    cycle_->begun(cycle::task_id(number("sample"), 0), 30s);
+    cycle_->ended(cycle::task_id(number("sample"), 0), 130s, true);
+    cycle_->begun(cycle::task_id(number("sample"), 1), 130s);
+  }
   temporal::Duration session() const {
     for (const cycle::Block& one : cycle_->blocks())
       if (chains_.chains[one.chain].task == task_named(network_, "sample"))
@@ -285,7 +312,37 @@ TEST_F(LongSessions, EndBeforeSomethingFixedThatNeedsTheSame) {
   begin();
   wait_for_it(600);
   EXPECT_THAT(planned(20s), Contains("uplink"));
-  EXPECT_EQ(session(), 50s) << "60 s would run into the uplink";
+  EXPECT_EQ(session(), 20s) << "60 s would run into the uplink";
+  wait_for_it(450);
+  cycle_->run(20s);
+  EXPECT_EQ(session(), 45s);
+}
+
+TEST_F(LongSessions, EndBeforeWhatTheyNeedAllTheWhileDoes) {
+  earth_sets_at(230s);
+  begin();
+  image_until_now();
+  cycle_->run(140s);
+  ASSERT_EQ(session(), 20s) << "from 180 s on, and Earth sets at 230 s";
+  wait_for_it(600);
+  EXPECT_EQ(delivery_->transmission(delivery_->requests_with_data(), cycle_->past().values), 60s);
+  cycle_->run(145s);
+  EXPECT_EQ(session(), 20s);
+  wait_for_it(500);
+  cycle_->run(151s);
+  EXPECT_EQ(session(), 50s) << "which is committed";
+  EXPECT_THAT(cycle_->timelines().conflicts(151s, temporal::no_bound), IsEmpty());
+}
+
+// It would be committed as long as that, run into the end of the view, and bring home nothing.
+TEST_F(LongSessions, AreNotCommittedBeyondTheView) {
+  earth_sets_at(230s);
+  begin();
+  image_until_now();
+  wait_for_it(600);
+  cycle_->run(151s);
+  EXPECT_EQ(session(), 20s);
+  EXPECT_THAT(cycle_->timelines().conflicts(151s, temporal::no_bound), IsEmpty());
 }
 
 TEST_F(LongSessions, AreNoLongerThanTheLimitOfADownlinkPermits) {
@@ -293,15 +350,46 @@ TEST_F(LongSessions, AreNoLongerThanTheLimitOfADownlinkPermits) {
   begin();
   wait_for_it(600);
   cycle_->run(20s);
-  EXPECT_EQ(session(), 24s) << "120 J at 5 W";
+  EXPECT_EQ(session(), 20s) << "120 J at 5 W last for 24 s, in which no part of it is sent";
+  wait_for_it(240);
+  cycle_->run(20s);
+  EXPECT_EQ(session(), 24s);
+}
+
+// The more urgent one goes, and the smaller one as far as there is room beside it.
+TEST_F(LongSessions, LastForWhatGoesTogether) {
+  add_parameter("downlink_limit_j", 225);
+  begin();
+  for (const auto& [id, tier, bytes] :
+       {std::tuple{"a", Tier::mandatory, 260}, std::tuple{"b", Tier::decisional, 300},
+        std::tuple{"c", Tier::mandatory, 100}}) {
+    Existing product = stored(id, tier, static_cast<std::uint64_t>(bytes));
+    product.request = task_named(network_, "sample");
+    delivery_->hear(product);
+  }
+  cycle_->doubt();
+  cycle_->run(20s);
+  EXPECT_EQ(session(), 40s) << "b and c: 225 J at 5 W last for 45 s";
+}
+
+// What the service lets through is planned with, however large.
+TEST_F(LongSessions, AProductOfTheGreatestSizeIsLeftOutAndNothingElseChanges) {
+  begin();
+  wait_for_it(1'000'000'000'000'000);
+  EXPECT_THAT(planned(20s), Contains("sample"));
+  EXPECT_THAT(schedule(20s).left_out, SizeIs(1));
+  EXPECT_THAT(schedule(400s).left_out, SizeIs(1)) << "nor while a downlink runs";
 }
 
 TEST_F(LongSessions, AreNoLongerThanTheLimitOfTheirSolPermitsBesideOthers) {
   add_parameter("sol_limit_j", 250);
   begin();
-  wait_for_it(600);
+  wait_for_it(310);
   EXPECT_THAT(planned(20s), Contains("view"));
-  EXPECT_EQ(session(), 30s) << "the other one takes 100 J";
+  EXPECT_EQ(session(), 20s) << "the other one takes 100 J, and 30 s are left";
+  wait_for_it(300);
+  EXPECT_THAT(planned(20s), Contains("view"));
+  EXPECT_EQ(session(), 30s);
 }
 
 TEST_F(LongSessions, TakeTheirRealTimeFromTheirSol) {
