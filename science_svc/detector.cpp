@@ -14,7 +14,7 @@ using terrain::Point;
 
 namespace {
 
-constexpr double kFarthestId = 1e6;  // m, of a place that an id can say
+constexpr double kFarthestId = 1e8;  // m, of a place that an id can say: more than any map projection has
 
 constexpr std::size_t kTeachers = 3;
 constexpr double kEdge = 0.8;  // share of the threshold down to which a region goes on
@@ -64,7 +64,7 @@ std::optional<Point> place_of(const std::string& id) {
   char east = 0, north = 0;
   long x = 0, y = 0;
   int used = 0;
-  if (id.size() > 32 || std::sscanf(id.c_str(), "find-%c%7ld%c%7ld%n", &east, &x, &north, &y, &used) != 4)
+  if (id.size() > 32 || std::sscanf(id.c_str(), "find-%c%9ld%c%9ld%n", &east, &x, &north, &y, &used) != 4)
     return std::nullopt;
   if (static_cast<std::size_t>(used) != id.size()) return std::nullopt;
   const Point out{static_cast<double>(east == 'w' ? -x : x), static_cast<double>(north == 's' ? -y : y)};

@@ -24,7 +24,8 @@ DetectorSettings eager() {
 // A detector on flat ground without an end that has seen some of it.
 Detector taught(const DetectorSettings& settings) {
   Detector out(settings, nullptr);
-  for (std::uint64_t i = 0; i < 4; ++i) out.learn(photo("plain-" + std::to_string(i), {0, 0}, made_ground(i)));
+  for (std::uint64_t i = 0; i < 4; ++i)
+    out.learn(photo("plain-" + std::to_string(i), {0, 0}, made_ground(i)));
   return out;
 }
 
@@ -141,9 +142,26 @@ TEST(Detector, RemembersWhatAnEarlierProcessRaised) {
 TEST(Detector, AnIdSaysThePlace) {
   EXPECT_EQ(find_id({74.4, -51.6}), "find-e74s52");
   EXPECT_EQ(place_of("find-w3n0"), (terrain::Point{-3, 0}));
+  EXPECT_EQ(place_of("find-e500030n4500024"), (terrain::Point{500'030, 4'500'024}));
   for (const char* word : {"find-1", "ridge", "find-e1", "find-e1n2x", "find-e-1n2", "find-e01n2",
-                           "find-x1n2", "find-e99999999n1", ""})
+                           "find-x1n2", "find-e999999999n1", ""})
     EXPECT_FALSE(place_of(word)) << word;
+}
+
+// A map in projected coordinates: northings of millions of metres are no place that nobody can be at.
+TEST(Detector, FindsOnMapsFarFromTheirOrigin) {
+  const terrain::Grid grid{60, 60, 1.0, {500'000, 4'500'000}};
+  terrain::SiteLayers layers;
+  layers.elevation.assign(grid.cell_count(), 120.0F);
+  layers.rock_height.assign(grid.cell_count(), 0.0F);
+  layers.occupancy.assign(grid.cell_count(), terrain::Occupancy::free);
+  DetectorSettings settings = eager();
+  settings.threshold = 0;
+  Detector detector(settings, std::make_shared<const terrain::Site>(grid, layers));
+  const auto finds = detector.look(photo("a", {500'030, 4'500'030}, made_ground(1, 12)), seconds(1));
+  ASSERT_EQ(finds.size(), 1u);
+  EXPECT_LT(terrain::distance(finds[0].place, {500'030, 4'500'030}), 12);
+  EXPECT_EQ(place_of(finds[0].id), finds[0].place);
 }
 
 TEST(Detector, FindsNothingWhenSwitchedOffOffTheMapOrNowhere) {
