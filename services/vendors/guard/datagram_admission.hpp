@@ -15,7 +15,7 @@ enum class DatagramAdmission : std::uint8_t {
   no_rtps,   ///< It has no RTPS header of version 2.
   cut,       ///< A submessage reaches over the end, or is shorter than its kind must be.
   unknown_submessage,  ///< An id below 0x80 that RTPS 2.3 and DDS Security 1.1 do not define, or that redirects answers.
-  bad_numbers,   ///< Sequence or fragment numbers that RTPS 2.3 (8.3.5, 8.3.7) forbids, or a gap without end.
+  bad_numbers,   ///< Sequence or fragment numbers that RTPS 2.3 (8.3.5, 8.3.7) forbids, or gaps beyond gaps.hpp.
   bad_fragment,  ///< A fragment that lies outside its sample or is not there, or fragmented discovery.
   oversized,     ///< A fragment of a sample of more than kMaxSampleBytes.
   bad_parameters,      ///< A parameter list, or a known parameter in one, that does not fit into its bytes.

@@ -97,7 +97,11 @@ DatagramAdmission Guard::judge(std::span<const std::uint8_t> datagram, const std
     return DatagramAdmission::stranger;
   const DatagramAdmission admission = examine(datagram);
   if (admission != DatagramAdmission::pass || !source) return admission;
-  return identities_.claim(sender_of(datagram), *source, std::chrono::steady_clock::now());
+  const auto now = std::chrono::steady_clock::now();
+  const DatagramAdmission claimed = identities_.claim(sender_of(datagram), *source, now);
+  if (claimed != DatagramAdmission::pass) return claimed;
+  const bool may_skip = gap_budget_.take(*source, skipped_in(datagram), now);
+  return may_skip ? DatagramAdmission::pass : DatagramAdmission::bad_numbers;
 }
 
 // The first at once, then one line for all of ten seconds.

@@ -11,6 +11,7 @@
 
 #include "services/transport/refused_datagrams.hpp"
 #include "services/transport/transport.hpp"
+#include "services/vendors/guard/gaps.hpp"
 #include "services/vendors/guard/identities.hpp"
 #include "services/vendors/guard/message.hpp"
 #include "services/vendors/guard/partings.hpp"
@@ -64,6 +65,7 @@ class Guard {
   const Policy policy_;
   mutable std::mutex mutex_;
   Identities identities_;
+  GapBudget gap_budget_;
   std::array<std::uint64_t, kAdmissions> counts_{};
   std::array<std::optional<Source>, kAdmissions> last_sources_{};
   std::array<std::uint64_t, kAdmissions> reported_{};

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <vector>
 
+#include "services/vendors/guard/gaps.hpp"
 #include "services/vendors/guard/rtps_ids.hpp"
 #include "services/vendors/guard/submessages.hpp"
 
@@ -96,14 +97,18 @@ DatagramAdmission examine(std::span<const std::uint8_t> datagram) {
     return DatagramAdmission::no_rtps;
   }
   const GuidPrefix sender = sender_of(datagram);
+  SkippedNumbers skipped;
   for (auto rest = datagram.subspan(kHeaderSize); !rest.empty();) {
     const std::size_t size = size_of_first(rest);
     if (size == 0) return DatagramAdmission::cut;
     const ByteView body{rest.subspan(kSubmessageHeaderSize, size - kSubmessageHeaderSize),
                         is_little_endian(rest)};
     if (rest[0] < kFirstOfVendors) {
-      const DatagramAdmission admission = examine_submessage({rest[0], rest[1], body}, sender);
+      const Submessage one{rest[0], rest[1], body};
+      const DatagramAdmission admission = examine_submessage(one, sender);
       if (admission != DatagramAdmission::pass) return admission;
+      skipped += skipped_by(one);
+      if (!skipped.fits_one_datagram()) return DatagramAdmission::bad_numbers;
     }
     rest = rest.subspan(size);
   }

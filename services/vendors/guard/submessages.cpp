@@ -1,16 +1,13 @@
 #include "services/vendors/guard/submessages.hpp"
 
 #include "services/vendors/guard/data.hpp"
+#include "services/vendors/guard/gaps.hpp"
 #include "services/vendors/guard/rtps_ids.hpp"
 
 namespace roci::services::vendors::guard {
 namespace {
 
 constexpr std::uint32_t kMaxBits = 256;  // of a set of sequence or fragment numbers (RTPS 2.3, 9.4.2.6)
-// Fast DDS walks through a gap number by number. From number 1 on that costs time alone, 3 ns each; a gap further up
-// is kept, number by number.
-constexpr std::int64_t kLongestGapFromStart = std::int64_t{1} << 28;
-constexpr std::int64_t kLongestGap = std::int64_t{1} << 18;
 
 std::size_t bytes_of_bits(std::uint32_t bits) { return (bits + 31) / 32 * 4; }
 
@@ -41,7 +38,7 @@ DatagramAdmission gap(const Submessage& message) {
   const std::int64_t start = body.sequence_number(8), base = body.sequence_number(16);
   const std::uint32_t bits = body.u32(24);
   if (start <= 0 || base <= 0 || bits > kMaxBits) return DatagramAdmission::bad_numbers;
-  if (base - start > (start == 1 ? kLongestGapFromStart : kLongestGap)) return DatagramAdmission::bad_numbers;
+  if (!skipped_by(message).fits_one_datagram()) return DatagramAdmission::bad_numbers;
   return at_least(message, 28 + bytes_of_bits(bits));
 }
 

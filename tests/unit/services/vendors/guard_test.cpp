@@ -190,6 +190,48 @@ TEST(Guard, EachKindOfDamageHasItsVerdict) {
             DatagramAdmission::bad_parameters);
 }
 
+// Fast DDS walks through each number of a GAP, and keeps those that it cannot place yet.
+TEST(Guard, TheGapsOfOneDatagramAreBoundedInAll) {
+  constexpr std::int64_t kStep = std::int64_t{1} << 18, kLongest = std::int64_t{1} << 28;
+  EXPECT_EQ(judge(own().gap(0, kUserWriter, 1, kLongest, 0)), DatagramAdmission::pass)
+      << "what a late joiner is told by a writer with a long past";
+  EXPECT_EQ(judge(own().gap(0, kUserWriter, 2, 2 + kStep, 0)), DatagramAdmission::pass);
+  Message chain = own(), walks = own();
+  for (std::int64_t k = 0; k < 2; ++k) {
+    chain.gap(0, kUserWriter, 2 + k * kStep, 2 + (k + 1) * kStep, 0);
+    walks.gap(0, kUserWriter, 1, kLongest, 0);
+  }
+  EXPECT_EQ(judge(chain), DatagramAdmission::bad_numbers);
+  EXPECT_EQ(judge(walks), DatagramAdmission::bad_numbers);
+  Message holes = own();
+  for (std::int64_t k = 0; k <= kStep / 256; ++k) holes.gap(0, kUserWriter, 2 + 256 * k, 2 + 256 * k, 256);
+  EXPECT_EQ(judge(holes), DatagramAdmission::bad_numbers) << "the bits of its lists count, too";
+}
+
+TEST(Guard, TheGapsOfOneSocketAreBoundedInTime) {
+  using namespace std::chrono_literals;
+  constexpr Source kSource{0x7f000001, 7413}, kAnother{0x7f000001, 7415};
+  const GapBudget::Time start{1000s};
+  for (const SkippedNumbers most : {SkippedNumbers{SkippedNumbers::kMostFromStart, 0},
+                                    SkippedNumbers{0, SkippedNumbers::kMostFurtherUp}}) {
+    GapBudget budget;
+    int taken = 0;
+    while (taken < 100 && budget.take(kSource, most, start)) ++taken;
+    EXPECT_EQ(taken, most.from_start > 0 ? 1 : 4);
+    EXPECT_FALSE(budget.take(kSource, most, start + 1s));
+    EXPECT_TRUE(budget.take(kAnother, most, start + 1s)) << "nobody spends what is another's";
+    EXPECT_TRUE(budget.take(kSource, {}, start + 1s));
+    EXPECT_TRUE(budget.take(kSource, most, start + 9s)) << "a writer that says it again is heard";
+  }
+  Guard guard(Policy{{kSource.address}});
+  const auto admits = [&](std::int64_t from) {
+    Bytes bytes = own().gap(0, kUserWriter, from, from + SkippedNumbers::kMostFurtherUp, 0).bytes();
+    return guard.admit(bytes, kSource) > 0;
+  };
+  for (std::int64_t k = 0; k < 4; ++k) EXPECT_TRUE(admits(2 + k * SkippedNumbers::kMostFurtherUp));
+  EXPECT_FALSE(admits(2));
+}
+
 TEST(Guard, FragmentsLieWithinTheirSampleAndAreThere) {
   const auto fragment = [](std::uint32_t first, std::uint16_t count, std::uint16_t size, std::uint32_t sample,
                            std::size_t there) {

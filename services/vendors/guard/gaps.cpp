@@ -1,0 +1,51 @@
+#include "services/vendors/guard/gaps.hpp"
+
+#include <algorithm>
+
+#include "services/vendors/guard/message.hpp"
+#include "services/vendors/guard/rtps_ids.hpp"
+
+namespace roci::services::vendors::guard {
+
+SkippedNumbers& SkippedNumbers::operator+=(const SkippedNumbers& more) {
+  from_start += more.from_start;
+  further_up += more.further_up;
+  return *this;
+}
+
+SkippedNumbers skipped_by(const Submessage& message) {
+  if (message.id != kGap || message.body.size() < 28) return {};
+  const std::int64_t start = message.body.sequence_number(8), base = message.body.sequence_number(16);
+  const std::int64_t before_base = std::max(base - start, std::int64_t{0}), bits = message.body.u32(24);
+  return start == 1 ? SkippedNumbers{before_base, bits} : SkippedNumbers{0, before_base + bits};
+}
+
+SkippedNumbers skipped_in(std::span<const std::uint8_t> message) {
+  SkippedNumbers out;
+  for_each_submessage(message, [&out](const Submessage& one) { out += skipped_by(one); });
+  return out;
+}
+
+GapBudget::Spent GapBudget::Spent::by(Time now) const {
+  const double seconds = std::chrono::duration<double>(now - at).count();
+  return {std::max(0., from_start - seconds * static_cast<double>(kPerSecond.from_start)),
+          std::max(0., further_up - seconds * static_cast<double>(kPerSecond.further_up)), now};
+}
+
+bool GapBudget::take(const Source& source, const SkippedNumbers& numbers, Time now) {
+  if (numbers.none()) return true;
+  std::erase_if(spent_, [now](const auto& one) {
+    const Spent left = one.second.by(now);
+    return left.from_start == 0 && left.further_up == 0;
+  });
+  const auto found = spent_.find(source);
+  Spent spent = found == spent_.end() ? Spent{0, 0, now} : found->second.by(now);
+  spent.from_start += static_cast<double>(numbers.from_start);
+  spent.further_up += static_cast<double>(numbers.further_up);
+  const bool fits = spent.from_start <= static_cast<double>(kBurst.from_start) &&
+                    spent.further_up <= static_cast<double>(kBurst.further_up);
+  if (fits) spent_[source] = spent;
+  return fits;
+}
+
+}  // namespace roci::services::vendors::guard
