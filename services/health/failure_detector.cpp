@@ -9,16 +9,17 @@ namespace roci::services::health {
 bool FailureDetector::heartbeat(const v1::Heartbeat& beat, clock::WallTime now) {
   if (peers_.size() >= bounds::kPeers && !peers_.contains(beat.service())) return false;
   Peer& peer = peers_[beat.service()];
+  if (beat.state() == v1::SERVICE_STOPPING) {
+    const bool leaves = peer.alive && beat.incarnation() == peer.incarnation;
+    if (leaves && !peer.stopping_since) peer.stopping_since = now;
+    return true;
+  }
   if (!believable(peer, beat.incarnation(), now)) return true;
   if (beat.incarnation() != peer.incarnation && peer.alive) die(beat.service(), peer, "restarted");
-  const bool leaving = beat.state() == v1::SERVICE_STOPPING;
-  const bool left = peer.left && beat.incarnation() == peer.incarnation;
   peer.incarnation = beat.incarnation();
   peer.last_seen = now;
-  peer.left = left || leaving;
-  if (peer.alive && leaving) die(beat.service(), peer, "left");
-  if (peer.alive || peer.left) return true;
-  peer.alive = true;
+  peer.stopping_since.reset();
+  if (std::exchange(peer.alive, true)) return true;
   changes_.push_back({beat.service(), beat.incarnation(), true, ""});
   return true;
 }
@@ -39,12 +40,17 @@ void FailureDetector::seen(const std::string& service, std::uint32_t incarnation
 void FailureDetector::writer_lost(const std::string& service) {
   const auto found = peers_.find(service);
   if (found == peers_.end() || !found->second.alive) return;
-  die(service, found->second, "killed");
+  die(service, found->second, found->second.stopping_since ? "left" : "killed");
 }
 
 void FailureDetector::check(clock::WallTime now) {
   for (auto& [service, peer] : peers_) {
-    if (peer.alive && now - peer.last_seen > hang_limit_) die(service, peer, "hung");
+    if (!peer.alive) continue;
+    if (peer.stopping_since && now - *peer.stopping_since > kStillHeard) {
+      die(service, peer, "left");
+    } else if (now - peer.last_seen > hang_limit_) {
+      die(service, peer, "hung");
+    }
   }
 }
 
@@ -58,6 +64,7 @@ std::vector<PeerChange> FailureDetector::take_changes() { return std::exchange(c
 
 void FailureDetector::die(const std::string& service, Peer& peer, std::string cause) {
   peer.alive = false;
+  peer.stopping_since.reset();
   changes_.push_back({service, peer.incarnation, false, std::move(cause)});
 }
 

@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,7 +20,9 @@ namespace roci::services::health {
 ///
 /// The incarnation that is heard counts. Another one replaces it only when it has been silent: a later one after
 /// kStillHeard; an earlier one, or one more than kIncarnationJump later, after the limit for a hang. A forged
-/// heartbeat thus replaces nobody who is heard, and a service that it has replaced comes back.
+/// heartbeat thus replaces nobody who is heard, and a service that it has replaced comes back. Who says that it stops
+/// has left once nothing more is heard of it for kStillHeard, or its writer is gone: a service's last heartbeat says
+/// so, and another one behind it shows that it was forged.
 class FailureDetector {
  public:
   /// Says how lately a service must have been heard to count as running; heartbeats come four times a second.
@@ -35,7 +38,7 @@ class FailureDetector {
   void seen(const std::string& service, std::uint32_t incarnation, clock::WallTime now);
   /// Takes in that the transport no longer knows a living writer of this service's heartbeat.
   void writer_lost(const std::string& service);
-  /// Declares dead whoever has been silent for longer than the limit.
+  /// Declares dead whoever has been silent for longer than the limit, or kStillHeard after it said that it stops.
   void check(clock::WallTime now);
 
   PeerState state(std::string_view service) const;
@@ -45,8 +48,8 @@ class FailureDetector {
   struct Peer {
     std::uint32_t incarnation = 0;
     bool alive = false;
-    bool left = false;  // it said that it stops
     clock::WallTime last_seen;
+    std::optional<clock::WallTime> stopping_since;  // it said that it stops, and no heartbeat came since
   };
   bool believable(const Peer&, std::uint32_t incarnation, clock::WallTime now) const;
   void die(const std::string& service, Peer&, std::string cause);

@@ -96,8 +96,7 @@ LedgerFile::LedgerFile(std::filesystem::path file)
   std::ifstream in(file_, std::ios::binary | std::ios::ate);
   if (in.tellg() <= 0) return;
   in.seekg(-1, std::ios::end);
-  if (in.get() != '\n' && write(descriptor_, "\n", 1) != 1)
-    throw std::system_error(errno, std::generic_category(), "cannot write " + file_.string());
+  torn_ = in.get() != '\n';
 }
 
 LedgerFile::~LedgerFile() { close(descriptor_); }

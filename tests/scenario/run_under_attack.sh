@@ -64,6 +64,7 @@ send query sim_svc nav drive x 1000000 1000000
 send execute sim_svc nav drive y 1000000 1000000
 beat sim_svc 4000000000 1
 beat exec_svc 4000000000 1
+stop sim_svc 1 2
 repeat 1.5
 LINES
 step intruder $? "$folder/intruder.out"

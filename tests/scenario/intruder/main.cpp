@@ -4,6 +4,7 @@
 //   as NAME                             speaks in this name from now on; first as exec_svc
 //   send ACTION OWNER SUBSYSTEM COMMAND ACTIVITY ISSUED SENDER_EPOCH [argument=value …]
 //   beat SERVICE INCARNATION TIMES      heartbeats, four a second
+//   stop SERVICE INCARNATION TIMES      the same, and each says that the service stops
 //   observe TIMELINE STATE [argument …]   tells once of a timeline, latched, when somebody listens
 //   acknowledge OWNER ACTIVITY ISSUED     a last word on a command, as if he were its owner
 //   repeat SECONDS                      sends every command that he hears again, twice
@@ -94,7 +95,8 @@ class Intruder {
       return true;
     }
     if (what == "send") return send(in);
-    if (what == "beat") return beat(in);
+    if (what == "beat") return beat(in, v1::SERVICE_RUNNING);
+    if (what == "stop") return beat(in, v1::SERVICE_STOPPING);
     if (what == "observe") return observe(in);
     if (what == "acknowledge") return acknowledge(in);
     double seconds = 0;
@@ -152,13 +154,13 @@ class Intruder {
     return false;
   }
 
-  bool beat(std::istringstream& in) {
+  bool beat(std::istringstream& in, v1::ServiceState state) {
     v1::Heartbeat out;
     std::uint32_t incarnation = 0;
     int times = 0;
     in >> out.service() >> incarnation >> times;
     out.incarnation(incarnation);
-    out.state(v1::SERVICE_RUNNING);
+    out.state(state);
     out.host("elsewhere");
     out.process_id(1);
     spin(20, [this] { return voice_->beats.matched_readers() > 1; });

@@ -72,6 +72,32 @@ TEST_F(FailureDetectorTest, AKillIsNotALeave) {
   EXPECT_THAT(changes(), ElementsAre("2 alive", "2 left"));
 }
 
+TEST_F(FailureDetectorTest, WhoSaysThatItStopsAndIsSilentHasLeft) {
+  peers.heartbeat(beat(1), start);
+  peers.heartbeat(beat(1, v1::SERVICE_STOPPING), start);
+  peers.check(start + FailureDetector::kStillHeard);
+  EXPECT_EQ(peers.state("arm_svc"), PeerState::alive);
+  peers.check(start + FailureDetector::kStillHeard + 1ms);
+  EXPECT_THAT(changes(), ElementsAre("1 alive", "1 left"));
+  peers.heartbeat(beat(1, v1::SERVICE_STOPPING), start + 1s);
+  EXPECT_EQ(peers.state("arm_svc"), PeerState::dead);
+  peers.heartbeat(beat(2), start + 2s);
+  EXPECT_THAT(changes(), ElementsAre("2 alive"));
+}
+
+TEST_F(FailureDetectorTest, NobodyWhoIsHeardHasLeftHoweverOftenItIsSaid) {
+  clock::WallTime now = start;
+  for (int turn = 0; turn < 40; ++turn, now += 250ms) {
+    peers.heartbeat(beat(3), now);
+    for (const std::uint32_t forged : {3U, 4U, 2U})
+      peers.heartbeat(beat(forged, v1::SERVICE_STOPPING), now + 10ms);
+    peers.check(now + 240ms);
+  }
+  EXPECT_THAT(changes(), ElementsAre("3 alive"));
+  peers.writer_lost("arm_svc");
+  EXPECT_EQ(peers.state("arm_svc"), PeerState::dead);
+}
+
 TEST_F(FailureDetectorTest, ANewIncarnationProvesTheDeathOfTheOld) {
   peers.heartbeat(beat(1), start);
   peers.heartbeat(beat(2), start + 1s);
