@@ -192,7 +192,7 @@ class ExecService final : public services::Service {
   void join_pair() {
     publisher_.let_commands_wait([this] { return leader_->may_command(); });
     leader_->on_hand_over([this](goals::GoalRecord goal) { take(std::move(goal)); });
-    if (apart_) inputs_.handed_over = apart_->goals();
+    take_goals_apart();
     lead_owners();
     const bool live = node_.options().clock == services::clock::ClockMode::live;
     node_.on_turn([this, live] {
@@ -200,6 +200,17 @@ class ExecService final : public services::Service {
       if (live) tell_pair();
       publisher_.send_waiting();
     });
+  }
+
+  // Takes in the goals of journals that were replaced. It waits for the disk as a commit does.
+  void take_goals_apart() {
+    if (!apart_) return;
+    inputs_.handed_over = apart_->goals();
+    for (auto pause = disk_pause(node_, leader_); apart_->waits_for_disk();
+         inputs_.handed_over = apart_->goals())
+      pause.wait();
+    for (const std::string& damage : apart_->take_damage())
+      publisher_.report({Severity::error, "journal.damaged", damage});
   }
 
   // Tells the ground of the pair, in mission time: under the simulated clock with a step.

@@ -15,6 +15,7 @@
 #include "services/log/log.hpp"
 #include "services/node.hpp"
 #include "services/process/clock_watch.hpp"
+#include "services/process/disk_pause.hpp"
 #include "services/process/link_report.hpp"
 #include "services/process/service_options.hpp"
 #include "services/process/stop_signals.hpp"
@@ -113,12 +114,17 @@ class PairProcess {
         persisted_term_(file_of(options, "standing"), durability_for(options.node)),
         stop_watch_(signals, [this] { stop_.ask(); }) {
     journal_.watch_extent();
+    persisted_term_.wait_for_disk({[this](const std::string& cause) {
+                                     if (term_pause_.wait())
+                                       services::log::error("exec_svc waits for its disk: " + cause);
+                                   },
+                                   [this] { term_pause_.over(); }});
   }
 
   void run() {
     bool superseded = false;
     for (bool told_split = false; !stop_.asked();) {
-      Lease lease(self_, lease_, persisted_term_.read(), superseded, moment(), owners_of(mission_));
+      Lease lease(self_, lease_, persisted_term(), superseded, moment(), owners_of(mission_));
       const auto lead = follow(lease);
       if (!lead) return;
       log(*lead, lease);
@@ -134,6 +140,17 @@ class PairProcess {
   void log(const Lease::Turn& turn, const Lease& lease) const {
     services::log::info("exec_svc (" + options_.run.pair + ") leads in epoch " +
                         std::to_string(lease.epoch()) + ": " + turn.reason);
+  }
+
+  standby::PersistedTerm persisted_term() {
+    try {
+      return persisted_term_.read();
+    } catch (const journal::JournalError& error) {
+      const fs::path kept = persisted_term_.begin_anew(journal_.position());
+      services::log::error(std::string(error.what()) + ", is kept as " + kept.string() +
+                           ", and this member is in doubt who has led since its journal was written");
+      return persisted_term_.read();
+    }
   }
 
   // Opens the transport. A member that was connected before waits for its network to come back. Returns null
@@ -206,6 +223,7 @@ class PairProcess {
   LeaseSettings lease_;
   Journal journal_;
   PersistedTermFile persisted_term_;
+  services::process::DiskPause term_pause_{[this] { watchdog_.notify(); }};
   StopRequest stop_;
   services::process::StopWatch stop_watch_;
   bool connected_before_ = false;

@@ -33,7 +33,13 @@ constexpr int kBusyTimeoutMs = 1000;
 // journal. A step appends at the end, a few pages.
 constexpr char kCacheSize[] = "PRAGMA cache_size=-256;";
 
-// Returns whether the disk, and not what stands on it, is the cause.
+[[noreturn]] void fail(sqlite3* database, const std::string& before = "") {
+  if (is_of_the_disk(database)) throw DiskError(before + sqlite3_errmsg(database));
+  throw JournalError(before + sqlite3_errmsg(database));
+}
+
+}  // namespace
+
 bool is_of_the_disk(sqlite3* database) {
   switch (sqlite3_extended_errcode(database)) {
     case SQLITE_FULL:
@@ -53,13 +59,6 @@ bool is_of_the_disk(sqlite3* database) {
       return false;
   }
 }
-
-[[noreturn]] void fail(sqlite3* database, const std::string& before = "") {
-  if (is_of_the_disk(database)) throw DiskError(before + sqlite3_errmsg(database));
-  throw JournalError(before + sqlite3_errmsg(database));
-}
-
-}  // namespace
 
 Statement::Statement(const Journal::Database& database, const char* sql) : database_(database.handle) {
   if (sqlite3_prepare_v2(database_, sql, -1, &statement_, nullptr) != SQLITE_OK) fail(database_);

@@ -20,6 +20,9 @@ struct sqlite3_session;
 
 namespace roci::exec::journal {
 
+/// Returns whether the disk, and not what stands on it, is the cause of the last error of this connection.
+bool is_of_the_disk(sqlite3* database);
+
 /// Holds a prepared statement; bound values are copied.
 class Statement {
  public:

@@ -92,6 +92,9 @@ class Journal {
   /// for take_batches(), which returns those since its last call, in order.
   void begin_epoch(std::uint64_t epoch);
   std::vector<Batch> take_batches();
+  /// Brings everything that was committed from SQLite's log into the file itself, which is whole without its log then.
+  /// Throws DiskError if the disk does not take it; closing the journal would pass over that.
+  void checkpoint();
   bool empty() const;  ///< no goals, no records
   /// Returns the newest commit, or {0, 0} for a journal that no epoch of a pair has written to.
   Position position() const;

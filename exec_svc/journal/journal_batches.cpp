@@ -98,6 +98,12 @@ std::string Journal::serialized() const {
   return {reinterpret_cast<const char*>(bytes.get()), static_cast<std::size_t>(size)};
 }
 
+void Journal::checkpoint() {
+  Statement checkpoint(*database_, "PRAGMA wal_checkpoint(TRUNCATE)");
+  const bool whole = checkpoint.row() && checkpoint.number(0) == 0;
+  if (!whole) throw DiskError("the log of " + file_.string() + " is in use and cannot be written into it");
+}
+
 void Journal::replace_with(std::string_view whole) {
   if (whole.empty()) throw JournalError("what came is not a whole journal: it is empty");
   const fs::path arrived = fs::path(file_).concat(".arrived");

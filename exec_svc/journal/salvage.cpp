@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <functional>
 #include <map>
+#include <optional>
 #include <set>
 #include <system_error>
 #include <utility>
@@ -37,14 +38,15 @@ class Connection {
   Connection(const Connection&) = delete;
   Connection& operator=(const Connection&) = delete;
 
-  /// Visits rows until there is none left or one cannot be read; returns false for the latter.
+  /// Visits rows until there is none left or one cannot be read; returns false for the latter. Throws DiskError where
+  /// the disk, and not what stands on it, is the cause.
   bool rows(const std::string& sql, const std::function<void(sqlite3_stmt*)>& visit) const {
     sqlite3_stmt* opened = nullptr;
-    if (sqlite3_prepare_v2(handle_, sql.c_str(), -1, &opened, nullptr) != SQLITE_OK) return false;
+    if (sqlite3_prepare_v2(handle_, sql.c_str(), -1, &opened, nullptr) != SQLITE_OK) return is_damaged();
     const std::unique_ptr<sqlite3_stmt, decltype(&sqlite3_finalize)> statement(opened, sqlite3_finalize);
     int status = SQLITE_OK;
     while ((status = sqlite3_step(opened)) == SQLITE_ROW) visit(opened);
-    return status == SQLITE_DONE;
+    return status == SQLITE_DONE || is_damaged();
   }
   sqlite3* handle() const { return handle_; }
   /// Returns the first column of the first row or, if there is none, what went wrong.
@@ -58,6 +60,11 @@ class Connection {
   }
 
  private:
+  /// Returns false, or throws DiskError.
+  bool is_damaged() const {
+    if (is_of_the_disk(handle_)) throw DiskError(sqlite3_errmsg(handle_));
+    return false;
+  }
   [[noreturn]] void close_and_throw() {
     const std::string reason = sqlite3_errmsg(handle_);
     sqlite3_close(handle_);
@@ -73,7 +80,7 @@ std::string text_of(sqlite3_stmt* row, int column) {
                          : std::string(data, static_cast<std::size_t>(sqlite3_column_bytes(row, column)));
 }
 
-// Looks at the file as SQLite sees it, and changes nothing.
+// Looks at the file as SQLite sees it. SQLite itself may write the log into the file, and remove it, as it closes both.
 std::string damage_of_database(const fs::path& file) {
   const Connection database(file);
   const std::string check = database.word("PRAGMA quick_check(1)");
@@ -165,6 +172,9 @@ Remains read_copy(const fs::path& file, const fs::path& template_file) {
       copy_database(file, copy);
       prepare();
       remains = read_remains(copy);
+    } catch (const DiskError&) {
+      remove_database(copy);
+      throw;
     } catch (const JournalError&) {
       remains.whole = false;
     }
@@ -203,8 +213,7 @@ std::string summary_of(const std::string& file, const std::string& damage, const
 void write_remains(const fs::path& file, const Remains& remains, const std::string& damage) {
   Journal journal(file, Durability::process);
   for (const auto& [key, goal] : remains.goals) journal.put_goal(goal);
-  for (const auto& [name, value] : remains.numbers)
-    if (is_plausible(name, value)) journal.set_number(name, value);
+  for (const auto& [name, value] : remains.numbers) journal.set_number(name, value);
   temporal::Time last{0};
   for (const auto& [number, record] : remains.records) {
     journal.append(record.time, record.kind, record.text);
@@ -214,7 +223,22 @@ void write_remains(const fs::path& file, const Remains& remains, const std::stri
   journal.set_text(kDamage, damage);
   journal.set_position(kForkedHistory);
   journal.commit();
+  journal.checkpoint();
 }
+
+// The mark has an epoch, too, and the later one counts. What means nothing by itself must not outdo it.
+void settle_numbers(Remains& remains, const std::optional<Extent>& mark) {
+  if (mark) {
+    const auto row = remains.numbers.find("epoch");
+    const bool later =
+        row == remains.numbers.end() || !is_plausible("epoch", row->second) || row->second < mark->epoch;
+    if (later) remains.numbers["epoch"] = mark->epoch;
+  }
+  std::erase_if(remains.numbers, [](const auto& one) { return !is_plausible(one.first, one.second); });
+}
+
+// Names a new journal that is complete, on the disk, and not in its place yet.
+fs::path ready_name(const fs::path& file) { return fs::path(file).concat(".salvaged"); }
 
 fs::path free_name(const fs::path& file) {
   for (int number = 1;; ++number) {
@@ -231,6 +255,13 @@ void quarantine(const fs::path& file, const fs::path& kept) {
   const fs::path mark = HighWaterMark(file).file();
   if (fs::exists(mark)) put_in_place(mark, HighWaterMark(kept).file(), Durability::power);
   put_in_place(file, kept, Durability::power);
+}
+
+// Puts the new journal that is ready in the place of the damaged one, which is kept. Each step but the last can be
+// repeated.
+void put_ready_in_place(const fs::path& file, const fs::path& kept) {
+  if (fs::exists(file)) quarantine(file, kept);
+  put_in_place(ready_name(file), file, Durability::power);
 }
 
 }  // namespace
@@ -260,13 +291,12 @@ std::string damage_of(const fs::path& file) {
 }
 
 void salvage_if_damaged(const fs::path& file) {
-  const fs::path mended = fs::path(file).concat(".mended");
-  if (!fs::exists(file) && fs::exists(mended))
-    put_in_place(mended, file, Durability::power);  // it was stopped between the two renames
-  const std::string damage = damage_of(file);
-  if (damage.empty()) return;
+  const fs::path mended = fs::path(file).concat(".mended"), ready = ready_name(file);
   const fs::path kept = free_name(file);
   try {
+    if (fs::exists(ready)) return put_ready_in_place(file, kept);  // it was stopped between the renames
+    const std::string damage = damage_of(file);
+    if (damage.empty()) return;
     remove_database(mended);
     { const Journal empty(mended, Durability::process); }
     Remains remains;
@@ -275,15 +305,14 @@ void salvage_if_damaged(const fs::path& file) {
     } else {
       remains.whole = false;
     }
-    // The mark has an epoch, too, and the later one counts.
-    if (const auto extent = HighWaterMark(file).read()) {
-      std::int64_t& epoch = remains.numbers["epoch"];
-      epoch = std::max(epoch, extent->epoch);
-    }
+    settle_numbers(remains, HighWaterMark(file).read());
     write_remains(mended, remains, summary_of(file.filename().string(), damage, remains, kept));
+    remove_database_logs(mended);
+    if (const std::string lost = damage_of(mended); !lost.empty())
+      throw DiskError(mended.string() + " does not hold what was written into it: " + lost);
     sync_path(mended);
-    quarantine(file, kept);
-    put_in_place(mended, file, Durability::power);
+    put_in_place(mended, ready, Durability::power);
+    put_ready_in_place(file, kept);
   } catch (const fs::filesystem_error& error) {
     const bool of_the_disk =
         error.code() == std::errc::no_space_on_device || error.code() == std::errc::io_error;

@@ -72,6 +72,7 @@ void FollowerService::take(const Chunk& chunk) {
   const JournalCopy::Result taken = copy_.take(chunk, lease_->epoch());
   if (taken == JournalCopy::Result::old || taken == JournalCopy::Result::corrupt) return;
   if (taken == JournalCopy::Result::excess) tell_excess(chunk);
+  if (taken == JournalCopy::Result::unwritten) tell_unwritten();
   lease_->hear_leader(chunk.leader, moment());
   if (taken == JournalCopy::Result::whole) {
     handed_over_ = apart_.goals();
@@ -94,10 +95,26 @@ void FollowerService::tell_excess(const Chunk& chunk) {
   events_.write(services::node::make_event(v1::SEVERITY_WARNING, "journal.no_room", text));
 }
 
+void FollowerService::tell_unwritten() {
+  const std::uint64_t times = refusals_.note("disk");
+  if (times == 0) return;
+  const std::string text =
+      "the goals of the standby's own journal cannot be kept, so the leader's does not take its place yet (" +
+      std::to_string(times) + " times so far); make room on the disk";
+  services::log::error(text);
+  events_.write(services::node::make_event(v1::SEVERITY_ERROR, "journal.waiting", text));
+}
+
 // Until the copy of the leader's journal shows that it has them.
 void FollowerService::hand_over() {
-  if (handed_over_.empty() || moment() - handed_over_at_ < kHandOverAgain) return;
+  for (const std::string& damage : apart_.take_damage()) {
+    services::log::error(damage);
+    events_.write(services::node::make_event(v1::SEVERITY_ERROR, "journal.damaged", damage));
+  }
+  const bool nothing_to_do = handed_over_.empty() && !apart_.waits_for_disk();
+  if (nothing_to_do || moment() - handed_over_at_ < kHandOverAgain) return;
   handed_over_at_ = moment();
+  if (apart_.waits_for_disk()) handed_over_ = apart_.goals();
   handed_over_ = GoalsApart::missing(handed_over_, journal_->goals());
   if (handed_over_.empty()) return apart_.remove();
   for (const GoalRecord& goal : handed_over_) goals_.write(to_wire(goal, executive_, lease_->self()));

@@ -39,6 +39,7 @@ class FollowerService {
   void hear(const v1::LeaseState& state);
   void take(const Chunk& chunk);
   void tell_excess(const Chunk& chunk);
+  void tell_unwritten();
   void hand_over();
   void tell_lost_orders();
   void tell_what_it_lacks(const Lease::Turn&);

@@ -1,17 +1,19 @@
 #include "exec_svc/standby/goals_apart.hpp"
 
 #include <algorithm>
-#include <map>
-#include <string>
-#include <utility>
+#include <charconv>
+#include <string_view>
+#include <system_error>
 
 #include "exec_svc/goals/goal_merge.hpp"
 #include "exec_svc/journal/database_files.hpp"
+#include "exec_svc/journal/salvage.hpp"
 
 namespace roci::exec::standby {
 
 using goals::GoalKey;
 using goals::GoalRecord;
+using journal::DiskError;
 using journal::Durability;
 using journal::Journal;
 using journal::JournalError;
@@ -20,46 +22,82 @@ namespace fs = std::filesystem;
 
 namespace {
 
+constexpr std::string_view kApart = ".apart-";
+
 fs::path numbered(const fs::path& journal, int number) {
-  return fs::path(journal).concat(".apart-" + std::to_string(number));
+  return fs::path(journal).concat(std::string(kApart) + std::to_string(number));
+}
+
+// Returns the number of a file of these goals; 0: it is another one, e.g. the log of one.
+int number_of(const fs::path& file, const fs::path& journal) {
+  const std::string name = file.filename().string(), start = journal.filename().string().append(kApart);
+  if (!name.starts_with(start)) return 0;
+  int number = 0;
+  const char* const end = name.data() + name.size();
+  const auto read = std::from_chars(name.data() + start.size(), end, number);
+  return read.ec == std::errc{} && read.ptr == end && number > 0 ? number : 0;
+}
+
+// The file is whole without its log when this returns, and can be read.
+void write_goals(const fs::path& file, const std::vector<GoalRecord>& goals) {
+  {
+    Journal apart(file, Durability::process);
+    for (const GoalRecord& goal : goals) apart.put_goal(goal);
+    apart.commit();
+    apart.checkpoint();
+  }
+  journal::remove_database_logs(file);
+  if (Journal(file, Durability::process).goals().size() != goals.size())
+    throw DiskError(file.string() + " does not hold what was written into it");
 }
 
 }  // namespace
 
-std::vector<fs::path> GoalsApart::files() const {
-  std::vector<fs::path> out;
-  for (int number = 1; fs::exists(numbered(journal_, number)); ++number)
-    out.push_back(numbered(journal_, number));
+std::map<int, fs::path> GoalsApart::files() const {
+  std::map<int, fs::path> out;
+  std::error_code none;
+  const fs::path folder = journal_.has_parent_path() ? journal_.parent_path() : fs::path(".");
+  for (const auto& entry : fs::directory_iterator(folder, none))
+    if (const int number = number_of(entry.path(), journal_)) out[number] = numbered(journal_, number);
   return out;
 }
 
 void GoalsApart::keep(const Journal& replaced) const {
   const std::vector<GoalRecord> goals = replaced.goals();
   if (goals.empty()) return;
-  const fs::path file = numbered(journal_, static_cast<int>(files().size()) + 1);
+  const auto there = files();
+  const fs::path file = numbered(journal_, there.empty() ? 1 : there.rbegin()->first + 1);
   const fs::path unfinished = fs::path(file).concat(".new");
   journal::remove_database(unfinished);
-  {
-    Journal apart(unfinished, Durability::process);
-    for (const GoalRecord& goal : goals) apart.put_goal(goal);
-    apart.commit();
+  try {
+    write_goals(unfinished, goals);
+    if (durability_ == Durability::power) journal::sync_path(unfinished);
+    journal::put_in_place(unfinished, file, durability_);
+  } catch (const std::exception& error) {
+    journal::remove_database(unfinished);
+    throw DiskError("the goals of a journal that is to be replaced cannot be kept: " +
+                    std::string(error.what()));
   }
-  journal::remove_database_logs(unfinished);
-  if (durability_ == Durability::power) journal::sync_path(unfinished);
-  journal::put_in_place(unfinished, file, durability_);
 }
 
-std::vector<GoalRecord> GoalsApart::goals() const {
+std::vector<GoalRecord> GoalsApart::goals() {
   std::map<GoalKey, GoalRecord> kept;
-  for (const fs::path& file : files()) {
+  waits_for_disk_ = false;
+  for (const auto& [number, file] : files()) {
     try {
-      for (const GoalRecord& goal : Journal(file, Durability::process).goals()) {
+      journal::salvage_if_damaged(file);
+      const Journal apart(file, Durability::process);
+      const std::string damage = apart.text(journal::kDamage);
+      for (const GoalRecord& goal : apart.goals()) {
         const auto [known, is_new] = kept.try_emplace(goal.request.key, goal);
         if (is_new) continue;
         if (const auto both = goals::merged(known->second, goal)) known->second = *both;
       }
-    } catch (const JournalError&) {
-      continue;  // the others count all the more
+      if (read_.insert(file).second && !damage.empty()) damage_.push_back(damage);
+    } catch (const DiskError&) {
+      waits_for_disk_ = true;
+    } catch (const JournalError& error) {
+      if (unreadable_.insert(file).second) damage_.emplace_back(error.what());
     }
   }
   std::vector<GoalRecord> out;
@@ -80,9 +118,8 @@ std::vector<GoalRecord> GoalsApart::missing(const std::vector<GoalRecord>& kept,
   return out;
 }
 
-void GoalsApart::remove() const {
-  const std::vector<fs::path> all = files();
-  for (auto file = all.rbegin(); file != all.rend(); ++file) journal::remove_database(*file);
+void GoalsApart::remove() {
+  for (const fs::path& file : std::exchange(read_, {})) journal::remove_database(file);
 }
 
 }  // namespace roci::exec::standby

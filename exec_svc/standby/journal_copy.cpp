@@ -4,6 +4,7 @@
 
 namespace roci::exec::standby {
 
+using journal::DiskError;
 using journal::JournalError;
 using journal::kForkedHistory;
 
@@ -48,7 +49,11 @@ JournalCopy::Result JournalCopy::take_part(const Chunk& chunk) {
   if (++arrival_.parts < announced_) return Result::part;
   const std::string whole = std::exchange(arriving_, {});
   arrival_ = {};
-  if (before_replacement_) before_replacement_();
+  try {
+    if (before_replacement_) before_replacement_();
+  } catch (const DiskError&) {
+    return Result::unwritten;
+  }
   try {
     journal_->replace_with(whole);
   } catch (const JournalError&) {

@@ -21,8 +21,8 @@ inline constexpr std::size_t kJournalCopyBytes = std::size_t{256} << 20;
 /// kJournalCopyBytes at most, whatever comes.
 class JournalCopy {
  public:
-  /// `before_replacement` is called with the journal complete, right before another one takes its place; what it throws
-  /// passes through, and the journal stays.
+  /// `before_replacement` is called with the journal complete, right before another one takes its place. Where it
+  /// throws DiskError, the journal stays, and what came is wanted again; all else that it throws passes through.
   explicit JournalCopy(journal::Journal& journal, std::function<void()> before_replacement = nullptr)
       : journal_(&journal), has_(journal.position()), before_replacement_(std::move(before_replacement)) {}
 
@@ -35,6 +35,7 @@ class JournalCopy {
     corrupt,  ///< refused
     excess,  ///< more than there is room for, or than was announced: refused, and all of that journal forgotten
     old,     ///< its leader's epoch is over; refused
+    unwritten,  ///< complete, but the disk does not take what is to be kept of the journal it replaces: wanted again
   };
   /// Takes a chunk; `epoch` is the latest that the follower knows of.
   Result take(const Chunk& chunk, std::uint64_t epoch);

@@ -1,47 +1,77 @@
 #include "exec_svc/standby/persisted_term_file.hpp"
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <fstream>
+#include <string>
+#include <system_error>
 
-#include "exec_svc/journal/database_files.hpp"
+#include "core/durable/durable_file.hpp"
 
 namespace roci::exec::standby {
 
+using journal::DiskError;
 using journal::Durability;
 using journal::JournalError;
 
 namespace fs = std::filesystem;
 
+namespace {
+
+// Exceeds the epochs in which a member may have led since its journal was last written.
+constexpr std::uint64_t kEpochsBeyondJournal = 100;
+
+fs::path free_name(const fs::path& file) {
+  for (int number = 1;; ++number) {
+    fs::path name = fs::path(file).concat(".damaged-" + std::to_string(number));
+    if (!fs::exists(name)) return name;
+  }
+}
+
+}  // namespace
+
 PersistedTerm PersistedTermFile::read() const {
   if (!fs::exists(file_)) return {};
   PersistedTerm out;
   std::ifstream in(file_);
-  if (!(in >> out.epoch >> out.alone))
-    throw JournalError(file_.string() + " is damaged; remove it if the other member's journal is whole");
+  if (!(in >> out.epoch >> out.alone)) throw JournalError(file_.string() + " is damaged");
   if (!(in >> out.holds)) out.holds = out.epoch;  // written by a member that did not keep it
   return out;
+}
+
+fs::path PersistedTermFile::begin_anew(const journal::Position& newest) {
+  const fs::path kept = free_name(file_);
+  insist([&] { fs::copy_file(file_, kept, fs::copy_options::overwrite_existing); });
+  const PersistedTerm in_doubt{newest.epoch + kEpochsBeyondJournal, false, 0};
+  insist([&] { write(in_doubt); });
+  kept_ = in_doubt;
+  return kept;
 }
 
 void PersistedTermFile::keep(const PersistedTerm& persisted_term) {
   if (!kept_) kept_ = read();
   if (*kept_ == persisted_term) return;
-  write(persisted_term);
+  insist([&] { write(persisted_term); });
   kept_ = persisted_term;
 }
 
 void PersistedTermFile::write(const PersistedTerm& persisted_term) const {
-  const fs::path unfinished = fs::path(file_).concat(".new");
-  std::ofstream out(unfinished);
-  out << persisted_term.epoch << ' ' << persisted_term.alone << ' ' << persisted_term.holds << '\n'
-      << std::flush;
-  out.close();
-  const int written = open(unfinished.c_str(), O_RDONLY | O_CLOEXEC);
-  const bool good = out && written >= 0 && (durability_ == Durability::process || fsync(written) == 0);
-  if (written >= 0) close(written);
-  if (!good) throw JournalError("cannot write " + unfinished.string());
-  journal::put_in_place(unfinished, file_, durability_);
+  const std::string text = std::to_string(persisted_term.epoch) + ' ' + std::to_string(persisted_term.alone) +
+                           ' ' + std::to_string(persisted_term.holds) + '\n';
+  durable::replace_file(
+      file_, text,
+      durability_ == Durability::power ? durable::Durability::power : durable::Durability::process);
+}
+
+void PersistedTermFile::insist(const std::function<void()>& write) const {
+  for (bool waited = false;; waited = true) {
+    try {
+      write();
+      if (waited && disk_wait_.over) disk_wait_.over();
+      return;
+    } catch (const std::system_error& error) {
+      if (!disk_wait_.wait) throw DiskError(error.what());
+      disk_wait_.wait(error.what());
+    }
+  }
 }
 
 }  // namespace roci::exec::standby

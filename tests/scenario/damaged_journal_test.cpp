@@ -10,6 +10,7 @@
 #include <random>
 #include <sstream>
 
+#include "exec_svc/journal/high_water_mark.hpp"
 #include "exec_svc/journal/journal.hpp"
 #include "exec_svc/journal/salvage.hpp"
 #include "tests/fuzz/rounds.hpp"
@@ -100,11 +101,16 @@ std::string with_zeroes(std::string bytes, std::size_t at, std::size_t count) {
 }
 
 TEST_F(DamagedJournal, TheExecutiveStartsAndKeepsWhatCanBeRead) {
+  fs::create_directories(run_folder(3));
+  exec::journal::HighWaterMark(run_folder(3) / "journal.sqlite").write({.epoch = 7, .record = 100});
   start_on({whole, whole.substr(0, whole.size() - kPage), with_zeroes(whole, 0, 100), "no database at all"});
   EXPECT_EQ(goals_after(0, false), kGoals);
   EXPECT_EQ(goals_after(1, true), kGoals);
   EXPECT_EQ(goals_after(2, true), kGoals);
   EXPECT_EQ(goals_after(3, true), 0U);
+  for (const std::size_t number : {2U, 3U})
+    EXPECT_GT(Journal(run_folder(number) / "journal.sqlite", Durability::process).number("epoch", 0), 7)
+        << "no epoch is used twice: the journal says it, or the mark beside one that says nothing";
 }
 
 // One flipped bit of the stated version is damage, and no newer version that nobody may start on.

@@ -13,15 +13,19 @@
 
 #include "exec_svc/journal/database_files.hpp"
 #include "exec_svc/journal/format.hpp"
+#include "exec_svc/journal/high_water_mark.hpp"
 #include "exec_svc/journal/journaled_reactor.hpp"
 #include "tests/unit/exec_svc/golden/golden.hpp"
 #include "tests/unit/exec_svc/planetary_fixture.hpp"
+#include "tests/unit/exec_svc/refused_writes.hpp"
 
 namespace roci::exec {
 
 using goals::GoalRecord;
 using journal::damage_of;
+using journal::DiskError;
 using journal::Durability;
+using journal::HighWaterMark;
 using journal::Journal;
 using journal::JournaledReactor;
 using journal::kDamage;
@@ -233,6 +237,55 @@ TEST_F(SalvageTest, EachDamageIsKeptUnderANameOfItsOwn) {
   salvage_if_damaged(file);
   EXPECT_TRUE(fs::exists(fs::path(file).concat(".damaged-1")));
   EXPECT_TRUE(fs::exists(fs::path(file).concat(".damaged-2")));
+}
+
+// A row that says nothing must not outdo the mark, whose epoch counts where it is the later one.
+TEST_F(SalvageTest, TheMarksEpochCountsWhereTheRowIsGarbageOrEarlier) {
+  for (const auto& [row, epoch] :
+       {std::pair<std::int64_t, std::int64_t>{std::int64_t{1} << 40, 12}, {-5, 12}, {11, 12}, {14, 14}}) {
+    SCOPED_TRACE(row);
+    write(whole);
+    testing::execute(file, "UPDATE number SET value = " + std::to_string(row) +
+                               " WHERE name = 'epoch'; UPDATE goal SET state = 77 WHERE id = 'goal-4'");
+    HighWaterMark(file).write({.epoch = 12, .record = 1});
+    salvage_if_damaged(file);
+    EXPECT_EQ(Journal(file, Durability::process).number("epoch", 0), epoch);
+  }
+}
+
+TEST_F(SalvageTest, ADiskThatDoesNotTakeTheNewJournalIsWaitedForAndTheOldOneStays) {
+  const std::string damaged = std::string(100, '\0') + whole.substr(100);
+  write(damaged);
+  {
+    const testing::RefusedWrites full(testing::checkpoints_of(fs::path(file).concat(".mended")));
+    EXPECT_THROW(salvage_if_damaged(file), DiskError);
+  }
+  EXPECT_FALSE(fs::exists(fs::path(file).concat(".damaged-1")));
+  salvage_if_damaged(file);
+  EXPECT_EQ(goals_kept(Journal(file, Durability::process)), kGoals);
+}
+
+// The log and the mark go before the file that they belong to; a process may be killed between any two of these.
+TEST_F(SalvageTest, AKillBetweenTheRenamesLosesNothing) {
+  write(std::string(100, '\0') + whole.substr(100));
+  HighWaterMark(file).write({.epoch = 12, .record = 1});
+  salvage_if_damaged(file);
+  const fs::path kept = fs::path(file).concat(".damaged-1"), ready = fs::path(file).concat(".salvaged");
+  const auto expect_all = [&] {
+    salvage_if_damaged(file);
+    const Journal journal(file, Durability::process);
+    EXPECT_EQ(goals_kept(journal), kGoals);
+    EXPECT_EQ(journal.number("epoch", 0), 12);
+    EXPECT_TRUE(fs::exists(kept));
+    EXPECT_FALSE(fs::exists(ready));
+    EXPECT_FALSE(fs::exists(fs::path(file).concat(".damaged-2")));
+  };
+  fs::rename(file, ready);
+  expect_all();  // killed before the last rename
+  fs::rename(file, ready);
+  fs::rename(kept, file);
+  fs::resize_file(file, kPage);  // nothing can be read of it any more
+  expect_all();                  // killed before the one but last
 }
 
 // The executive knows its goals and that it knows no more; numbers of plans that may have run are not used again.
