@@ -6,9 +6,9 @@
 namespace roci::arm {
 namespace {
 
-// Places given by joint values or positions come and go; 200 named ones make 40,000 pairs.
-constexpr std::size_t kMostKept = 100'000;
 constexpr std::size_t kMostPositions = 10'000;
+// A planning call makes a request for each function in each of some rounds.
+constexpr std::uint64_t kLately = 64;
 
 template <typename Values>
 std::vector<double> values_of(const Values& values) {
@@ -29,7 +29,7 @@ bool open(const Estimate& estimate) {
 }  // namespace
 
 void EstimateCache::forget_other_versions(const MotionModel& model) {
-  if (model.version() != version_ || known_.size() > kMostKept) known_.clear();
+  if (model.version() != version_) known_.clear();
   if (model.version() != version_ || positions_.size() > kMostPositions) positions_.clear();
   version_ = model.version();
 }
@@ -68,7 +68,8 @@ Estimate EstimateCache::one(const MotionModel& model, const PlacePair& pair,
   const auto known = known_.find(key);
   unsigned effort = 1;
   if (known != known_.end()) {
-    const bool again = open(known->second.estimate) && known->second.request != request_ &&
+    known->second.asked = request_;
+    const bool again = open(known->second.estimate) && known->second.searched != request_ &&
                        known->second.effort < kMostEffort;
     if (!again) return known->second.estimate;
     effort = 2 * known->second.effort;
@@ -78,8 +79,27 @@ Estimate EstimateCache::one(const MotionModel& model, const PlacePair& pair,
   const Motion motion = model.plan(from, to, pair.payload, effort, cancelled);
   Estimate estimate{motion.status, motion.detail, motion.duration_s, motion.energy_j, motion.proved};
   if (motion.status != MotionStatus::cancelled && motion.status != MotionStatus::unknown_pose)
-    known_.insert_or_assign(std::move(key), Known{estimate, effort, request_});
+    keep(std::move(key), {estimate, effort, request_, request_});
   return estimate;
+}
+
+void EstimateCache::keep(Key key, Known known) {
+  if (const auto place = known_.find(key); place != known_.end()) {
+    place->second = std::move(known);
+    return;
+  }
+  if (known_.size() >= most_kept_ && swept_ != request_) forget_unasked();
+  const std::size_t most = open(known.estimate) ? 2 * most_kept_ : most_kept_;
+  if (known_.size() < most) known_.emplace(std::move(key), std::move(known));
+}
+
+void EstimateCache::forget_unasked() {
+  swept_ = request_;
+  const auto unasked = [this](const Known& known) { return known.asked + kLately < request_; };
+  std::erase_if(known_,
+                [&](const auto& entry) { return unasked(entry.second) && !open(entry.second.estimate); });
+  if (known_.size() < most_kept_) return;
+  std::erase_if(known_, [&](const auto& entry) { return unasked(entry.second); });
 }
 
 Estimate EstimateCache::bound(const MotionModel& model, const PlacePair& pair) {

@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <tuple>
@@ -32,8 +33,15 @@ struct Estimate {
 /// Keeps what was computed for one model version, by the joint values at both ends; a model of another
 /// version empties it. A motion that was not found, and not proved to be none, is searched with twice the effort
 /// by each later request that asks for it, up to kMostEffort: nothing but the count of requests decides.
+///
+/// A full cache forgets motions that no request has asked for lately, found ones first. Where that makes no room, what
+/// is found is not kept; what is not found is, up to twice as many in all, since the effort that it has taken counts.
 class EstimateCache {
  public:
+  /// 200 named places make 40,000 pairs; a motion takes about half a kilobyte.
+  static constexpr std::size_t kMostKept = 100'000;
+  explicit EstimateCache(std::size_t most_kept = kMostKept) : most_kept_(most_kept) {}
+
   /// Tells that what is asked from now on belongs to another request.
   void begin_request() { ++request_; }
 
@@ -59,15 +67,20 @@ class EstimateCache {
   struct Known {
     Estimate estimate;
     unsigned effort = 1;
-    std::uint64_t request = 0;
+    std::uint64_t searched = 0;  // by the request of this number
+    std::uint64_t asked = 0;     // likewise, and lastly
   };
 
   void forget_other_versions(const MotionModel& model);
   static PlaceKey key_of(const MotionModel& model, const Place& place, const ResolvedPlace& resolved);
   Estimate one(const MotionModel& model, const PlacePair& pair, const std::function<bool()>& cancelled);
+  void keep(Key key, Known known);
+  void forget_unasked();
 
+  std::size_t most_kept_;
   std::uint64_t version_ = 0;
   std::uint64_t request_ = 0;
+  std::optional<std::uint64_t> swept_;  // the request in which forget_unasked() was called last
   std::map<Key, Known> known_;
   std::map<PlaceKey, ResolvedPlace> positions_;
 };

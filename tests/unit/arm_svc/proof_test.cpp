@@ -107,6 +107,43 @@ TEST(AskedAgain, SearchesTwiceAsHardEachRequestUpToABound) {
                 HasSubstr("within " + std::to_string(10 * std::min(16, 1 << i)) + " search iterations"));
 }
 
+// A table of more motions than are kept is not planned anew as a whole, and the effort goes on to grow.
+TEST(AskedAgain, AFullCacheKeepsTheEffortAndWhatItHasFound) {
+  const MotionModel model(shut_setup());
+  EstimateCache cache(10);
+  std::vector<PlacePair> pairs;
+  for (int i = 1; i <= 30; ++i)
+    pairs.push_back({{"before"}, {"near", coordinates({-0.01 * i, -1, 0, 0, 0})}});
+  const PlacePair shut{{"before"}, {"after"}};
+  pairs.insert(pairs.begin() + 15, shut);
+  int planned = 0;
+  const auto counting = [&planned] {
+    return ++planned, false;
+  };  // once for each motion that is a straight line
+  for (int request = 0; request < 7; ++request) {
+    cache.begin_request();
+    const auto estimates = cache.estimate(model, pairs);
+    EXPECT_THAT(estimates[15].detail, HasSubstr("within " + std::to_string(10 * std::min(16, 1 << request)) +
+                                                " search iterations"));
+  }
+  cache.begin_request();
+  cache.estimate(model, pairs, counting);
+  EXPECT_EQ(planned, 20) << "the others are kept";
+  EXPECT_LE(cache.size(), 20U);
+  // What is not asked for any more makes room for what is.
+  pairs.assign(1, {{"before"}, {"far", coordinates({-0.5, -1, 0, 0, 0})}});
+  for (int request = 0; request < 100; ++request) {
+    cache.begin_request();
+    cache.estimate(model, pairs);
+  }
+  planned = 0;
+  cache.estimate(model, pairs, counting);
+  EXPECT_EQ(planned, 0);
+  cache.begin_request();
+  EXPECT_THAT(cache.estimate(model, {&shut, 1})[0].detail, HasSubstr("within 160 search iterations"))
+      << "while there is room, what was not found is not forgotten";
+}
+
 // A greater effort finds what a smaller one finds.
 TEST(AskedAgain, KeepsWhatWasFound) {
   const MotionModel model(test::rover_setup());
