@@ -13,7 +13,8 @@ namespace {
 using kinematics::Arm;
 using kinematics::JointVector;
 
-// Coulomb friction acts against motion only: a joint at rest holds for free what friction holds.
+// Coulomb friction acts against motion. What it would hold of a joint at rest is left out: the motor counts as holding
+// all of it.
 JointVector motor_efforts(const Arm& arm, const JointState& state, const Eigen::Vector3d& gravity) {
   JointVector efforts = joint_efforts(arm, state, gravity);
   for (Eigen::Index i = 0; i < efforts.size(); ++i) {
@@ -92,15 +93,13 @@ EnergyUse energy_of(const Arm& arm, const Trajectory& trajectory, const MotorMod
   return meter.use();
 }
 
-HoldingLoad holding_load(const Arm& arm, const JointVector& q, const JointVector& way,
-                         const MotorModel& motor) {
+HoldingLoad holding_load(const Arm& arm, const JointVector& q, const MotorModel& motor) {
   const JointVector rest = JointVector::Zero(q.size());
   const JointVector efforts = joint_efforts(arm, {q, rest, rest}, motor.gravity);
   HoldingLoad most;
   for (Eigen::Index i = 0; i < efforts.size(); ++i) {
     const auto& joint = arm.joints[static_cast<std::size_t>(i)];
-    const double sign = way[i] > 0 ? 1.0 : way[i] < 0 ? -1.0 : 0.0;
-    const double load = std::abs(efforts[i] + sign * joint.friction) / joint.limits.effort;
+    const double load = std::max(0.0, std::abs(efforts[i]) - joint.friction) / joint.limits.effort;
     if (load > most.load) most = {load, static_cast<std::size_t>(i)};
   }
   return most;

@@ -37,10 +37,10 @@ struct HoldingLoad {
   std::size_t joint = 0;
 };
 
-/// Returns the load of the motors when the arm stands at `q` and creeps along `way` (zeros: it stands still):
-/// what no slowing down takes away.
+/// Returns the least load that keeps the arm still at `q`: Coulomb friction holds as much as it can, and the motors the
+/// rest.
 HoldingLoad holding_load(const kinematics::Arm& arm, const kinematics::JointVector& q,
-                         const kinematics::JointVector& way, const MotorModel& motor);
+                         const MotorModel& motor);
 
 /// Returns an energy in J that no motion between the two stays below, whatever way it goes: idle power over
 /// duration_bound_s(), and through the gears at least the gain of potential energy and what Coulomb friction

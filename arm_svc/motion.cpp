@@ -16,6 +16,8 @@ using kinematics::Arm;
 using kinematics::CollisionShape;
 using kinematics::JointVector;
 
+constexpr double kLongestMotion = 10'000;  // s; a reply has ten samples for each
+
 Motion failed(MotionStatus status, std::string detail, bool proved) {
   Motion motion;
   motion.status = status;
@@ -35,7 +37,7 @@ std::string overload(const Arm& arm, const HoldingLoad& most, const std::string&
          " times its effort limit" + where;
 }
 
-// Says that the arm cannot even stand still at one of the ends.
+// Says that the arm cannot even stand still at one of the ends, though friction holds what it can.
 struct Unbearable {
   std::string detail;
   bool proved = false;  // of every motion, since the joint values were given
@@ -45,8 +47,7 @@ std::optional<Unbearable> unbearable(const Arm& arm, const MotorModel& motor, co
                                      const ResolvedPlace& to) {
   std::optional<Unbearable> found;
   for (const ResolvedPlace* end : {&from, &to}) {
-    const JointVector still = JointVector::Zero(end->joints.size());
-    const HoldingLoad most = holding_load(arm, end->joints, still, motor);
+    const HoldingLoad most = holding_load(arm, end->joints, motor);
     if (most.load <= 1.0 || (found && !end->by_joints)) continue;
     found = Unbearable{overload(arm, most, " to hold still at '" + end->name + "'"), end->by_joints};
     if (found->proved) break;
@@ -54,11 +55,21 @@ std::optional<Unbearable> unbearable(const Arm& arm, const MotorModel& motor, co
   return found;
 }
 
+// Says that the motion takes longer than any may.
+std::string too_slow(double duration_s) {
+  return "the motion that was found takes " + std::to_string(duration_s) + " s, and none may take over " +
+         std::to_string(static_cast<int>(kLongestMotion)) + " s; see the speed limits of the joints";
+}
+
 Motion costed(const Arm& arm, const MotorModel& motor, Trajectory trajectory) {
+  if (const double fastest = trajectory.duration_s(); fastest > kLongestMotion)
+    return failed(MotionStatus::no_path, too_slow(fastest), false);
   EnergyUse use = energy_of(arm, trajectory, motor);
   if (use.peak_load > 1.0) {
     if (const auto most = slow_down(arm, motor, trajectory))
       return failed(MotionStatus::overloaded, overload(arm, *most, ", however slowly it moves"), false);
+    if (const double slowed = trajectory.duration_s(); slowed > kLongestMotion)
+      return failed(MotionStatus::overloaded, too_slow(slowed), false);
     use = energy_of(arm, trajectory, motor);
   }
   const double duration = trajectory.duration_s();

@@ -85,6 +85,43 @@ TEST(Load, BeyondWhatTheArmCanHoldIsProvedWhereTheJointsAreGiven) {
   EXPECT_TRUE(bound.proved);
 }
 
+// A gear that holds takes its friction off what the motor must bear, at rest and on the way down.
+TEST(Load, WhatFrictionHoldsIsNotProvedTooHeavy) {
+  constexpr double kFriction = 30;
+  ArmSetup setup = test::rover_setup();
+  for (kinematics::Joint& joint : setup.arm.joints) joint.limits.effort = 1000;
+  kinematics::Joint& shoulder = setup.arm.joints[1];
+  shoulder.limits.effort = 45;
+  shoulder.friction = kFriction;
+  const MotionModel model(setup);
+  const JointVector rest = JointVector::Zero(5);
+  const ResolvedPlace stretched = model.resolve({"here", rest});
+  const ResolvedPlace lower = model.resolve({"lower", test::coordinates({0, 0.1, 0, 0, 0})});
+  std::vector<double> held;
+  int proved = 0;
+  for (double mass = 1; mass < 40; mass += 1) {
+    const Payload load{mass, {0, 0, 0}};
+    const Arm arm = loaded(setup.arm, load, setup.tool_axis);
+    const double torque = std::abs(joint_efforts(arm, {rest, rest, rest}, setup.motor.gravity)[1]);
+    const MotionBound bound = model.bound(stretched, lower, load);
+    EXPECT_EQ(bound.proved, torque - kFriction > 45) << mass;
+    EXPECT_EQ(bound.status, bound.proved ? MotionStatus::overloaded : MotionStatus::found) << mass;
+    if (bound.proved) {
+      ++proved;
+    } else if (torque > 45) {
+      held.push_back(mass);
+    }
+  }
+  ASSERT_GT(held.size(), 3U);
+  EXPECT_GT(proved, 3);
+  const Payload load{held.front(), {0, 0, 0}};
+  const Motion down = model.plan(stretched, lower, load, 1, {}),
+               up = model.plan(lower, stretched, load, 1, {});
+  EXPECT_EQ(down.status, MotionStatus::found) << down.detail;
+  EXPECT_EQ(up.status, MotionStatus::overloaded) << up.detail;
+  EXPECT_FALSE(up.proved) << "another way may exist";
+}
+
 TEST(Load, TakesRoom) {
   const ArmSetup setup = test::rail_setup();
   const CollisionChecker empty(setup.arm, setup.collision);

@@ -149,6 +149,18 @@ TEST(Motion, WeakMotorIsOverloaded) {
 
 // A fin along the shoulder's axis and a post in the way of its sweep: the azimuth cannot get past, and the
 // way round the other side is beyond its limits.
+// A reply has ten samples for each second: a motion of hours is none that anybody meant.
+TEST(Motion, NoneTakesHours) {
+  for (const double speed : {5e-5, 1e-12}) {
+    ArmSetup setup = test::rover_setup();
+    for (kinematics::Joint& joint : setup.arm.joints) joint.limits.velocity = speed;
+    const Motion motion = MotionModel(setup).motion({"ready"}, {"sampling"});
+    EXPECT_EQ(motion.status, MotionStatus::no_path);
+    EXPECT_FALSE(motion.proved);
+    EXPECT_NE(motion.detail.find("none may take over 10000 s; see the speed limits"), std::string::npos);
+  }
+}
+
 TEST(Motion, SearchEndsWhenThereIsNoWay) {
   ArmSetup setup = test::rover_setup();
   kinematics::CollisionShape fin{"fin", Eigen::Isometry3d::Identity(), kinematics::Box{{0.02, 0.8, 0.02}}};
