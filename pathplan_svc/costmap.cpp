@@ -92,6 +92,8 @@ Costmap::Costmap(const terrain::Site& site, const RoverLimits& limits,
     throw std::invalid_argument(
         "the rover's radius, slope, clearance and roughness limits must be above zero");
   }
+  if (limits.radius > kMostRadiusCells * grid_.resolution)
+    throw std::invalid_argument("the rover's radius must be 100 cells of the map at most");
   state_.assign(grid_.cell_count(), CellState::free);
   fit_planes(site);
   if (limits.max_step > 0) mark_steps(site);

@@ -44,8 +44,11 @@ const char* to_string(CellState state);
 /// roughness or step blocks the rover's centre only. Unknown ground is never free.
 class Costmap {
  public:
+  /// Bounds the rover's radius by the side of a cell: the plane under a rover of so many is fitted to 40,401 of them.
+  static constexpr double kMostRadiusCells = 100;
+
   /// Fits the map to the site, with its keep-out zones and those given. Throws std::invalid_argument for limits that
-  /// are not positive and finite (the step's may be zero).
+  /// are not positive and finite (the step's may be zero), and for a radius of more than kMostRadiusCells.
   Costmap(const terrain::Site& site, const RoverLimits& limits,
           const std::vector<terrain::Polygon>& keep_out = {});
 

@@ -245,9 +245,10 @@ std::unique_ptr<services::Service> make_service(services::Node& node, const serv
     team.robots.emplace(one.name, one.robot);
     if (own && one.program == own->program && !one.robot.empty()) team.planners.push_back(one.name);
   }
-  return std::make_unique<PathplanService>(node, terrain::load_site(site.resolve(site.text())),
-                                           rover ? read_rover(*rover) : Rover{}, map_settings, team,
-                                           settings.run_folder);
+  const Rover limits = rover ? read_rover(*rover) : Rover{};
+  const terrain::Site ground = terrain::load_site(site.resolve(site.text()));
+  require_few_cells(limits, ground.grid(), mission);
+  return std::make_unique<PathplanService>(node, ground, limits, map_settings, team, settings.run_folder);
 }
 
 }  // namespace roci::pathplan

@@ -4,6 +4,7 @@
 #include <array>
 #include <limits>
 #include <numbers>
+#include <sstream>
 #include <string>
 #include <string_view>
 
@@ -76,6 +77,17 @@ Rover read_rover(const mission::Entry& section) {
   }
   rover.limits.max_slope = max_slope_deg * kDegree;
   return rover;
+}
+
+void require_few_cells(const Rover& rover, const terrain::Grid& grid, const mission::Entry& mission) {
+  if (rover.limits.radius <= Costmap::kMostRadiusCells * grid.resolution) return;
+  std::ostringstream fault;
+  fault << "the rover's radius of " << rover.limits.radius << " m is more than " << Costmap::kMostRadiusCells
+        << " cells of the site's map, whose side is " << grid.resolution
+        << " m; correct 'radius_m' of 'rover', or resample the map to larger cells";
+  const auto section = mission.find("rover");
+  const auto radius = section ? section->find("radius_m") : section;
+  (radius ? *radius : mission.at("site")).fail(fault.str());
 }
 
 }  // namespace roci::pathplan

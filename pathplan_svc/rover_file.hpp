@@ -20,4 +20,8 @@ struct Rover {
 /// mission::FileError with place and remedy.
 Rover read_rover(const mission::Entry& section);
 
+/// Throws mission::FileError, with place and remedy, where the rover is wider than a Costmap of the grid can bear.
+/// `mission` has the keys `rover` (optional) and `site`.
+void require_few_cells(const Rover& rover, const terrain::Grid& grid, const mission::Entry& mission);
+
 }  // namespace roci::pathplan

@@ -2,6 +2,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <sstream>
 
 #include "core/kinematics/urdf_xml.hpp"
 
@@ -29,6 +30,20 @@ void require_positive(const XMLElement& element, const char* attribute) {
   if (xml::required_number(element, attribute) <= 0) {
     xml::fail(element, std::string("attribute '") + attribute + "' must be above 0");
   }
+}
+
+// Limits beyond these are slips of the pen: a motion would take years, or no time.
+constexpr double kLeastRate = 1e-4, kMostRate = 1e4;      // rad or m, per s, s² and s³
+constexpr double kLeastEffort = 1e-3, kMostEffort = 1e7;  // N·m or N
+constexpr double kFarthest = 1000;                        // rad or m
+
+double require_between(const XMLElement& element, const char* attribute, double least, double most,
+                       const std::string& unit) {
+  const double value = xml::required_number(element, attribute);
+  if (value >= least && value <= most) return value;
+  std::ostringstream message;
+  message << "attribute '" << attribute << "' must be between " << least << " and " << most << " " << unit;
+  xml::fail(element, message.str());
 }
 
 void check_geometry(const XMLElement& collision) {
@@ -94,18 +109,19 @@ void check_axis(const XMLElement& joint) {
 void check_limits(const XMLElement& joint, bool bounded, UrdfNotes& notes) {
   const XMLElement& limit = child(
       joint, "limit", "has no limits; add <limit lower=\"…\" upper=\"…\" velocity=\"…\" effort=\"…\"/>");
-  if (bounded && !(xml::required_number(limit, "lower") < xml::required_number(limit, "upper"))) {
+  if (bounded && !(require_between(limit, "lower", -kFarthest, kFarthest, "rad or m") <
+                   require_between(limit, "upper", -kFarthest, kFarthest, "rad or m"))) {
     xml::fail(joint, "the lower limit must be below the upper limit");
   }
-  require_positive(limit, "velocity");
-  require_positive(limit, "effort");
+  require_between(limit, "velocity", kLeastRate, kMostRate, "rad/s or m/s");
+  require_between(limit, "effort", kLeastEffort, kMostEffort, "N·m or N");
   if (limit.Attribute("acceleration") != nullptr) {
-    require_positive(limit, "acceleration");
-    notes.acceleration[joint.Attribute("name")] = xml::required_number(limit, "acceleration");
+    notes.acceleration[joint.Attribute("name")] =
+        require_between(limit, "acceleration", kLeastRate, kMostRate, "rad/s² or m/s²");
   }
   if (limit.Attribute("jerk") != nullptr) {
-    require_positive(limit, "jerk");
-    notes.jerk[joint.Attribute("name")] = xml::required_number(limit, "jerk");
+    notes.jerk[joint.Attribute("name")] =
+        require_between(limit, "jerk", kLeastRate, kMostRate, "rad/s³ or m/s³");
   }
 }
 

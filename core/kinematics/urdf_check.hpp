@@ -19,10 +19,10 @@ struct UrdfNotes {
   std::map<std::string, double> jerk;          ///< joints whose <limit> gives one
 };
 
-/// Checks a document. One that passes has unique names, known joint types, finite numbers, limits with lower
-/// < upper and positive velocity and effort on every movable joint, no zero axis, no mesh in <collision>,
-/// positive sizes, no negative mass or moment of inertia, and links that form one tree. Returns the first error
-/// otherwise, under the name `file`.
+/// Checks a document. One that passes has unique names, known joint types, finite numbers, limits with lower < upper
+/// within ±1000 rad or m, speed, acceleration and jerk from 1e-4 to 1e4 and efforts from 1e-3 to 1e7 (SI) on every
+/// movable joint, no zero axis, no mesh in <collision>, positive sizes, no negative mass or moment of inertia, and
+/// links that form one tree. Returns the first error otherwise, under the name `file`.
 std::variant<UrdfNotes, UrdfError> check_urdf(const std::string& text, const std::string& file);
 
 }  // namespace roci::kinematics

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,10 +20,24 @@ namespace {
 
 using mission::Entry;
 
+// A map beyond these is a slip of the pen: who fits planes to its cells would never come to an end.
+constexpr double kFinest = 0.01, kCoarsest = 10'000;  // m
+
+// Says what is wrong with a side of pixels; nothing if it can be worked with.
+std::string fault_of_resolution(double metres) {
+  if (metres >= kFinest && metres <= kCoarsest) return {};
+  std::ostringstream fault;
+  fault << "is " << metres << " m per pixel, and must be between " << kFinest << " and " << kCoarsest
+        << "; give it in metres, or resample the images";
+  return fault.str();
+}
+
 double read_resolution(const Entry& map) {
   const Entry value = map.at("resolution");
   const double resolution = value.number();
   if (resolution <= 0) value.fail("'resolution' must be positive; give it in metres per pixel");
+  if (const std::string fault = fault_of_resolution(resolution); !fault.empty())
+    value.fail("'resolution' " + fault);
   return resolution;
 }
 
@@ -155,6 +170,8 @@ std::vector<Polygon> read_keep_out(const Entry& map) {
 }
 
 Site finish(const std::filesystem::path& file, const Grid& grid, SiteLayers layers) {
+  if (const std::string fault = fault_of_resolution(grid.resolution); !fault.empty())
+    throw MapError(file.string() + ": the resolution " + fault);
   try {
     fill_holes(grid, layers);
   } catch (const MapError& error) {

@@ -18,10 +18,10 @@ namespace roci::terrain {
 ///
 /// Both images have the same size and cover the same cells; without `elevation` the site is flat at 0 m. With
 /// mode scale, grey is a rock of that share of max_height; with mode trinary (the default) grey is unknown.
-/// Cells are square: resolution is one number. Where the elevation is a GeoTIFF, `image` and the keys that go with
-/// it may be left out: then the GeoTIFF says where the cells lie, there are no rocks, and an `origin` shifts the map.
-/// `description` may be a GeoTIFF itself. A hole becomes ground that is unknown (holes.hpp). Throws mission::FileError
-/// (description) or MapError (images): file, line and column, what is wrong, and the remedy.
+/// Cells are square: resolution is one number, from 0.01 to 10000 m. Where the elevation is a GeoTIFF, `image` and the
+/// keys that go with it may be left out: then the GeoTIFF says where the cells lie, there are no rocks, and an `origin`
+/// shifts the map. `description` may be a GeoTIFF itself. A hole becomes ground that is unknown (holes.hpp). Throws
+/// mission::FileError (description) or MapError (images): file, line and column, what is wrong, and the remedy.
 Site load_site(const std::filesystem::path& description);
 
 }  // namespace roci::terrain

@@ -120,6 +120,9 @@ TEST(Costmap, RefusesDiscsAndLimitsThatMakeNoSense) {
   RoverLimits limits;
   limits.radius = 0;
   EXPECT_THROW(Costmap(site, limits), std::invalid_argument);
+  limits = {};
+  limits.radius = 100.5;
+  EXPECT_THROW(Costmap(site, limits), std::invalid_argument);
 }
 
 TEST(Costmap, ASlopeHasNoStepAndALedgeHas) {

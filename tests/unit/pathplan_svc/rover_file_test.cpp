@@ -69,6 +69,26 @@ TEST_F(RoverFile, ErrorsNamePlaceAndRemedy) {
   EXPECT_THAT(error_of("keep_out: [{x: 1, radius_m: 3}]"), HasSubstr("'y' is missing"));
 }
 
+TEST_F(RoverFile, ARoverOfTooManyCellsIsRefused) {
+  const auto error = [this](const std::string& text, double resolution) -> std::string {
+    std::ofstream(file_) << text;
+    const auto mission = mission::Entry::load(file_);
+    const auto section = mission.find("rover");
+    try {
+      require_few_cells(section ? read_rover(*section) : Rover{}, {10, 10, resolution, {0, 0}}, mission);
+    } catch (const mission::FileError& e) {
+      return e.what();
+    }
+    return "no error";
+  };
+  EXPECT_EQ(error("site: s.yaml\nrover: {radius_m: 2}\n", 0.02), "no error");
+  EXPECT_THAT(
+      error("site: s.yaml\nrover: {radius_m: 2}\n", 0.01),
+      HasSubstr(".yaml:2:19: the rover's radius of 2 m is more than 100 cells of the site's map, whose side "
+                "is 0.01 m; correct 'radius_m'"));
+  EXPECT_THAT(error("site: s.yaml\n", 0.001), HasSubstr(".yaml:1:7: the rover's radius of 0.8 m"));
+}
+
 TEST_F(RoverFile, ThePlanetaryRoverIsRead) {
   const auto mission =
       mission::Entry::load(std::string(ROCI_SOURCE_DIR) + "/missions/planetary/mission.yaml");

@@ -126,8 +126,18 @@ TEST(UrdfError, NamesFileLineElementAndRemedy) {
   EXPECT_THAT(error_of(massless),
               HasSubstr("arm.urdf:" + std::to_string(line_of(massless, "<joint name=\"tool_roll\"")) +
                         ": joint 'tool_roll': moves no mass; give link 'scoop'"));
+  for (const char* speed : {"1e-9", "0", "-1", "1e300"})
+    EXPECT_THAT(
+        error_of(edited("name=\"elbow\"", "velocity=\"0.35\"", "velocity=\"" + std::string(speed) + "\"")),
+        HasSubstr("limit: attribute 'velocity' must be between 0.0001 and 10000 rad/s or m/s"));
+  EXPECT_THAT(error_of(edited("name=\"elbow\"", "acceleration=\"0.50\"", "acceleration=\"1e-5\"")),
+              HasSubstr("attribute 'acceleration' must be between 0.0001 and 10000 rad/s²"));
   EXPECT_THAT(error_of(edited("name=\"elbow\"", "effort=\"30\"", "effort=\"30\" jerk=\"0\"")),
-              HasSubstr("attribute 'jerk' must be above 0"));
+              HasSubstr("attribute 'jerk' must be between 0.0001 and 10000"));
+  EXPECT_THAT(error_of(edited("name=\"elbow\"", "effort=\"30\"", "effort=\"1e-9\"")),
+              HasSubstr("attribute 'effort' must be between 0.001 and 1e+07 N·m or N"));
+  EXPECT_THAT(error_of(edited("name=\"elbow\"", "upper=\"2.9\"", "upper=\"2.9e9\"")),
+              HasSubstr("attribute 'upper' must be between -1000 and 1000 rad or m"));
   EXPECT_THAT(error_of("<robot name=\"x\"><link name=\"a\"></robot>"),
               HasSubstr("arm.urdf:1: document: not XML"));
   EXPECT_THAT(error_of("<sdf/>"), HasSubstr("root element is <robot>"));

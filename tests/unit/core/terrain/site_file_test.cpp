@@ -88,6 +88,12 @@ TEST_F(SiteFile, ErrorsNameFileLineAndRemedy) {
   EXPECT_THAT(error_after("resolution: 0.5", "resolution: [1, 2]"), HasSubstr(yaml + ":2:13: "));
   EXPECT_THAT(error_after("resolution: 0.5", "resolution: -1"),
               HasSubstr(":2:13: 'resolution' must be positive"));
+  EXPECT_THAT(
+      error_after("resolution: 0.5", "resolution: 0.0001"),
+      HasSubstr(":2:13: 'resolution' is 0.0001 m per pixel, and must be between 0.01 and 10000; give it"));
+  EXPECT_THAT(error_after("resolution: 0.5", "resolution: 1e-300"),
+              HasSubstr(":2:13: 'resolution' is 1e-300"));
+  EXPECT_THAT(error_after("resolution: 0.5", "resolution: 1e6"), HasSubstr(":2:13: 'resolution' is 1e+06 m"));
   EXPECT_THAT(error_after("resolution: 0.5", "resolution: .nan"),
               HasSubstr(":2:13: expected a finite number"));
   EXPECT_THAT(error_after("resolution: 0.5\n", ""), HasSubstr("'resolution' is missing"));
