@@ -81,7 +81,8 @@ void DecisionHost::look_soon() {
 void DecisionHost::look() {
   for (auto& [key, question] : questions_) {
     const auto plan = plans_.find(key.first);
-    if (question.answered || question.looked_at == known_ || plan == plans_.end()) continue;
+    if (question.answered || question.looked_at == known_ || plan == plans_.end() || looked_at_.contains(key))
+      continue;
     question.looked_at = known_;
     look_at(key, question, plan->second);
   }
@@ -90,6 +91,7 @@ void DecisionHost::look() {
 void DecisionHost::look_at(const Key& key, Question& question, const temporal::FlexiblePlan& plan) {
   const auto decision = std::ranges::find(plan.decisions, key.second, &temporal::DecisionPoint::id);
   if (decision == plan.decisions.end()) return;  // the plan that has it comes after it
+  looked_at_.insert(key);
   request_.origin = node_.now();
   const std::size_t index = static_cast<std::size_t>(decision - plan.decisions.begin());
   struct Result {
@@ -98,30 +100,34 @@ void DecisionHost::look_at(const Key& key, Question& question, const temporal::F
   };
   worker_.compute(
       [resolver = resolver_, request = request_, plan, index,
-       before = question.answer_before](const std::stop_token&) {
+       before = question.answer_before](const std::stop_token& stop) {
         Result result;
         try {
-          result.resolution = resolver->resolve({request, plan, plan.decisions[index], before});
+          result.resolution = resolver->resolve({request, plan, plan.decisions[index], before, stop});
         } catch (const std::exception& error) {
           result.fault = error.what();
         }
         return result;
       },
       [this, key, version = question.plan_version](Result result) {
+        looked_at_.erase(key);
         if (!result.fault.empty())
           events_.write(services::node::make_event(v1::SEVERITY_WARNING, "planner.defect",
                                                    "decision " + key.second + ": " + result.fault));
-        if (result.resolution) answer(key, version, *result.resolution);
+        const auto asked = questions_.find(key);
+        if (asked == questions_.end() || asked->second.answered) return;
+        if (result.resolution && asked->second.plan_version == version)
+          answer(key, asked->second, *result.resolution);
+        else if (asked->second.looked_at != known_)
+          look_soon();
       });
 }
 
-void DecisionHost::answer(const Key& key, std::uint32_t version, const engine::Resolution& resolution) {
-  const auto question = questions_.find(key);
-  if (question == questions_.end() || question->second.answered) return;
-  question->second.answered = true;
+void DecisionHost::answer(const Key& key, Question& question, const engine::Resolution& resolution) {
+  question.answered = true;
   v1::DecisionAnswer out;
   out.issuer(request_.engine);  // who is asked
-  out.id(key.first + "/" + key.second + "@" + std::to_string(version));
+  out.id(key.first + "/" + key.second + "@" + std::to_string(question.plan_version));
   out.executive(key.first);
   out.decision_id(key.second);
   out.choice(resolution.choice);

@@ -3,6 +3,7 @@
 
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 
 #include "planner_svc/engine/decision_resolver.hpp"
@@ -14,7 +15,8 @@
 
 namespace roci::planner {
 
-/// Hears plans, observations and questions, and asks the resolver whenever something new could decide one. A
+/// Hears plans, observations and questions, and asks the resolver whenever something new could decide one. The resolver
+/// looks at a question once at a time: what is heard meanwhile counts when it has ended. A
 /// question that is asked again after a restart gets the same answer under the same key, which the executive takes
 /// once.
 class DecisionHost {
@@ -39,7 +41,7 @@ class DecisionHost {
   void look_soon();
   void look();
   void look_at(const Key& key, Question& question, const temporal::FlexiblePlan& plan);
-  void answer(const Key& key, std::uint32_t version, const engine::Resolution& resolution);
+  void answer(const Key& key, Question& question, const engine::Resolution& resolution);
 
   services::Node& node_;
   engine::Request request_;
@@ -48,6 +50,7 @@ class DecisionHost {
   services::Publisher<v1::Event> events_;
   std::map<std::string, temporal::FlexiblePlan> plans_;  // by executive
   std::map<Key, Question> questions_;
+  std::set<Key> looked_at_;  // by the worker, now or when it comes to them
   std::uint64_t known_ = 1;  // counts what was heard
   bool look_planned_ = false;
   services::Worker worker_;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <stop_token>
 #include <string>
 
 #include "core/temporal/flexible_plan.hpp"
@@ -15,6 +16,7 @@ struct OpenDecision {
   const temporal::FlexiblePlan& plan;  ///< that is executed
   const temporal::DecisionPoint& decision;
   temporal::Time answer_before = temporal::no_bound;  ///< mission time
+  std::stop_token stop{};                             ///< once it is requested nobody waits for an answer
 };
 
 /// Holds the answer: one of the choices, or the value for the arguments that the decision binds.
@@ -31,7 +33,7 @@ class DecisionResolver {
 
   /// Decides on what is known now; the result depends on `open` alone. It returns nothing if the information is not
   /// there yet, and is then asked again when something else is observed, as long as the decision is open. What it
-  /// throws is reported, and nothing is answered.
+  /// throws is reported, and nothing is answered. It returns soon after a stop is requested, with whatever it has.
   virtual std::optional<Resolution> resolve(const OpenDecision& open) const = 0;
 };
 

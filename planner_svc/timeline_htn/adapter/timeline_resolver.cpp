@@ -20,7 +20,8 @@ using temporal::Duration;
 
 namespace {
 
-constexpr std::uint64_t kChoiceWork = 200'000;  // steps for one choice
+constexpr std::uint64_t kChoiceWork = 200'000;                 // steps for one choice
+constexpr std::size_t kChoiceBytes = std::size_t{256} << 20U;  // of the plans that are tried for it
 
 model::Model read(const OpenDecision& open) {
   mission::Findings findings;
@@ -194,7 +195,7 @@ class Trial {
   bool possible(const std::vector<bool>& subgoals, const std::vector<Index>& objects,
                 std::optional<std::set<std::string>> permitted) {
     const model::Behaviour& behaviour = asked_.of(model_);
-    if (model_.problem->horizon <= Duration{0}) return false;
+    if (model_.problem->horizon <= Duration{0} || open_.stop.stop_requested()) return false;
     std::vector<Index> goal_of(subgoals.size(), search::kNone);
     model_.problem->goals.clear();
     for (Index s = 0; s < subgoals.size(); ++s) {
@@ -213,7 +214,8 @@ class Trial {
         model_.problem->goals[goal_of[*one.to.subgoal]].after.push_back(goal_of[*one.from.subgoal]);
     if (!model::usable(model::check(model_))) return false;
     search::Search search(model_, {});
-    if (search.run(kChoiceWork, 0, [] { return false; }) != search::Outcome::solved) return false;
+    const auto stopped = [this] { return open_.stop.stop_requested(); };
+    if (search.run(kChoiceWork, kChoiceBytes, stopped) != search::Outcome::solved) return false;
     if (!permitted) return true;
     return std::ranges::all_of(search.plan().activities(), [&](const search::Activity& activity) {
       return activity.state == search::kNone || !search.ground().definition(activity.state).command ||

@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <condition_variable>
 #include <filesystem>
 #include <fstream>
+#include <mutex>
 #include <stdexcept>
 
 #include "planner_svc/engine_host_service.hpp"
@@ -31,6 +33,41 @@ class ByTheWay final : public engine::DecisionResolver {
     if (!open.decision.bindings.empty()) return engine::Resolution{"", word};
     return engine::Resolution{word, ""};
   }
+};
+
+// Says how often a resolver was asked, and lets it go on only once the test says so, or it is to stop.
+struct Gate {
+  void pass(const std::stop_token& stop) {
+    std::unique_lock lock(mutex);
+    ++asked;
+    opened.wait(lock, stop, [this] { return open; });
+  }
+  void let_go() {
+    const std::lock_guard lock(mutex);
+    open = true;
+    opened.notify_all();
+  }
+  int count() {
+    const std::lock_guard lock(mutex);
+    return asked;
+  }
+
+  std::mutex mutex;
+  std::condition_variable_any opened;
+  bool open = false;
+  int asked = 0;
+};
+
+class Gated final : public engine::DecisionResolver {
+ public:
+  explicit Gated(std::shared_ptr<Gate> gate) : gate_(std::move(gate)) {}
+  std::optional<engine::Resolution> resolve(const engine::OpenDecision& open) const override {
+    gate_->pass(open.stop);
+    return ByTheWay().resolve(open);
+  }
+
+ private:
+  std::shared_ptr<Gate> gate_;
 };
 
 class DecisionHostTest : public ::testing::Test {
@@ -161,6 +198,88 @@ TEST_F(DecisionHostTest, AFailureIsToldAndTheNextObservationDecides) {
                 write_at(exec, 4s, topics::observation, seen("way", "left"));
               }),
               ElementsAre("decision d: out of ideas", "4 guided/exec/d@1 d left"));
+}
+
+// Two nodes on the live clock, in turns, with a resolver that waits at a gate.
+class LiveDecisionHostTest : public DecisionHostTest {
+ protected:
+  LiveDecisionHostTest() {
+    table_["guided"].make_resolver = [this](const engine::Setup&) { return std::make_unique<Gated>(gate_); };
+    host_ = host_engines(planner_, settings_, table_);
+    services::subscribe(exec_, topics::decision_answer,
+                        [this](const v1::DecisionAnswer& answer) { answers_.push_back(answer.choice()); });
+    services::subscribe(planner_, topics::observation, [this](const v1::Observation&) { ++heard_; });
+  }
+
+  services::Node node(const std::string& name) {
+    services::node::NodeOptions options;
+    options.name = name;
+    options.vendor = "inproc";
+    return services::Node(options, run_.transport());
+  }
+
+  template <class Done>
+  void spin_until(Done done) {
+    while (!done()) {
+      exec_.spin_once(1ms);
+      planner_.spin_once(1ms);
+    }
+  }
+
+  void say(const std::string& timeline, const std::string& word) {
+    const int before = heard_;
+    observations_.write(seen(timeline, word));
+    spin_until([&] { return heard_ > before; });
+    planner_.spin_once(0ms);
+  }
+
+  // The worker is at the gate.
+  void ask() {
+    plans_.write(plan());
+    questions_.write(question("d"));
+    spin_until([&] { return gate_->count() == 1; });
+  }
+
+  services::SimRun run_{{"nobody"}};
+  std::shared_ptr<Gate> gate_ = std::make_shared<Gate>();
+  services::Node exec_ = node("exec"), planner_ = node("planner_svc");
+  services::Publisher<v1::Plan> plans_ = services::advertise(exec_, topics::plan);
+  services::Publisher<v1::Decision> questions_ = services::advertise(exec_, topics::decision);
+  services::Publisher<v1::Observation> observations_ = services::advertise(exec_, topics::observation);
+  std::vector<std::string> answers_;
+  int heard_ = 0;
+  std::unique_ptr<services::Service> host_;
+};
+
+TEST_F(LiveDecisionHostTest, WhatIsHeardWhileItLooksIsLookedAtOnceInTheEnd) {
+  ask();
+  for (int i = 0; i < 50; ++i) say("other", "left");
+  say("way", "right");
+  EXPECT_EQ(gate_->count(), 1);
+  gate_->let_go();
+  spin_until([&] { return !answers_.empty(); });
+  EXPECT_THAT(answers_, ElementsAre("right"));
+  EXPECT_EQ(gate_->count(), 2) << "each of what was heard waited for the one before";
+}
+
+// A later version of the plan asks anew: what was found out for the one before is no answer.
+TEST_F(LiveDecisionHostTest, WhatWasFoundOutForAnotherVersionIsNoAnswer) {
+  say("way", "left");
+  ask();
+  v1::Decision later = question("d");
+  later.plan_version(2);
+  questions_.write(later);
+  say("way", "right");
+  gate_->let_go();
+  spin_until([&] { return !answers_.empty(); });
+  EXPECT_THAT(answers_, ElementsAre("right"));
+  EXPECT_EQ(gate_->count(), 2);
+}
+
+TEST_F(LiveDecisionHostTest, ItsEndStopsTheLook) {
+  ask();
+  host_.reset();
+  EXPECT_EQ(gate_->count(), 1);
 }
 
 }  // namespace

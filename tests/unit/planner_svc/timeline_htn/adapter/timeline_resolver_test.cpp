@@ -151,6 +151,17 @@ TEST_F(TimelineResolverTest, WhereNothingCanBeCarriedOutItStaysOpen) {
   EXPECT_EQ(answer("go_on"), "") << "the horizon has passed";
 }
 
+TEST_F(TimelineResolverTest, NothingIsTriedOnceItIsToStop) {
+  std::stop_source source;
+  const auto resolve = [&] {
+    return TimelineResolver().resolve(
+        {.request = request_, .plan = plan_, .decision = decision("go_on"), .stop = source.get_token()});
+  };
+  EXPECT_TRUE(resolve());
+  source.request_stop();
+  EXPECT_FALSE(resolve());
+}
+
 TEST_F(TimelineResolverTest, AVariableIsBoundToWhatNeedsNoOtherCommands) {
   see("primary.nav", state("at", {"b"}));
   EXPECT_EQ(answer("where"), "a") << "as planned";
