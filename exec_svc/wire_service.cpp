@@ -157,7 +157,7 @@ v1::Command to_wire(const Command& in, const std::string& commander, std::uint32
   out.command_name(in.command_name);
   for (const temporal::Property& argument : in.arguments)
     out.arguments().push_back(services::wire::to_wire(argument));
-  out.plan_version(plan_version);
+  out.plan_version(in.plan != 0 ? in.plan : plan_version);
   out.epoch(in.epoch != 0 ? in.epoch : epoch);
   out.sender_epoch(epoch);
   out.expected_us(in.expected.count());

@@ -30,6 +30,7 @@ struct ActivityRun {
   std::uint32_t attempt = 0;  ///< part of the command's key: each command sent anew counts, none is reset
   std::size_t command = 0;    ///< index, in the activity's sequence, of the command under way
   std::uint64_t epoch = 0;    ///< executive's epoch when it issued this attempt: part of the key, too
+  std::uint32_t plan = 0;     ///< version of the plan that issued it: its owner tells old keys by it
   std::uint32_t issued = 0;   ///< the newest attempt that was sent
   std::uint32_t retries_used = 0;
   std::optional<temporal::Time> started, ended;

@@ -68,7 +68,7 @@ void ContingencyRuns::send(Index activity, CommandAction action) {
   state_->outputs.commands.push_back(
       {action, record.command_id, 1, command.owner, command.subsystem, command.command_name,
        filled(command.arguments, state_->with_bound(activity, planned.arguments)), temporal::Duration{0},
-       record.epoch, temporal::no_bound, command.robot});
+       record.epoch, temporal::no_bound, command.robot, state_->plan.version});
 }
 
 bool ContingencyRuns::expects(const CommandAck& ack) const {

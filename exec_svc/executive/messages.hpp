@@ -99,7 +99,8 @@ struct Command {
   temporal::Duration expected{0};  ///< shortest duration of the activity
   std::uint64_t epoch = 0;         ///< epoch in which the key was issued; 0: the commander's own
   temporal::Time latest_end = temporal::no_bound;  ///< time by which its step must have ended
-  std::string robot{};  ///< robot that has the subsystem; empty: the owner's only one
+  std::string robot{};     ///< robot that has the subsystem; empty: the owner's only one
+  std::uint32_t plan = 0;  ///< version of the plan that issued the key; 0: of the one that runs
 };
 
 /// Holds the state of one activity; times are mission times.

@@ -54,6 +54,7 @@ bool OwnerExchange::say_again(Index activity, Time now) {
     state_->send(activity, CommandAction::cancel);
   } else if (run.phase == ActivityPhase::sent) {
     run.epoch = state_->epoch;
+    run.plan = state_->plan.version;
     state_->send(activity, CommandAction::execute);
   } else {
     return false;

@@ -109,11 +109,12 @@ void RunState::send(Index activity, CommandAction action) {
   if (run.issued != run.attempt) {
     run.issued = run.attempt;
     run.epoch = epoch;
+    run.plan = plan.version;
   }
   const CommandOf sent = command(activity);
   outputs.commands.push_back({action, planned.id, run.attempt, sent.owner, sent.subsystem, sent.command_name,
                               with_bound(activity, sent.arguments), points.duration(activity).lower,
-                              run.epoch, run.latest_end, sent.robot});
+                              run.epoch, run.latest_end, sent.robot, run.plan});
 }
 
 CommandOf RunState::command(Index activity) const {

@@ -9,6 +9,7 @@ namespace roci::exec::testing {
 
 using executive::CommandStage;
 using executive::Executive;
+using executive::Inputs;
 using executive::OutcomeKind;
 
 namespace {
@@ -16,6 +17,7 @@ namespace {
 using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 using ::testing::Not;
 
 PlanBuilder one(const std::function<void(PlanActivity&)>& with, const std::string& owner = "sim") {
@@ -320,6 +322,29 @@ TEST(Loading, WhatRunsGoesOnInTheNextVersion) {
               ElementsAre("0 execute drive#1", "0 execute move#1", "0 drive running", "0 move running",
                           "60 cancel move#1", "100 drive succeeded", "100.001 execute photo#1",
                           "100.001 photo running", "110.001 photo succeeded", "110.001 plan finished"));
+}
+
+// Its owner tells an old key by the plan that issued it.
+TEST(Loading, AKeyKeepsThePlanThatIssuedIt) {
+  PlanBuilder b;
+  b.activity("drive", "sim", 100);
+  b.plan.version = 3;
+  Executive executive;
+  ASSERT_THAT(executive.load(b.plan, seconds(0)), IsEmpty());
+  EXPECT_EQ(executive.step(seconds(0), {}).commands.at(0).plan, 3U);
+  executive.step(seconds(1), {.acks = {{"drive", 1, CommandStage::accepted, "", ""}}});
+  PlanBuilder next;
+  next.activity("drive", "sim", 100);
+  next.activity("photo", "camera", 10);
+  next.plan.version = 50;
+  ASSERT_THAT(executive.load(next.plan, seconds(10)), IsEmpty());
+  EXPECT_EQ(executive.step(seconds(10), {}).commands.at(0).plan, 50U);
+  executive.step(seconds(11), {.acks = {{"photo", 1, CommandStage::accepted, "", ""}}});
+  EXPECT_EQ(executive.resume(seconds(20)).commands.at(0).plan, 3U) << "a question";
+  Inputs refused{.acks = {{"drive", 1, CommandStage::rejected, "old-epoch", ""}}, .epoch = 9};
+  refused.acks.front().refused_epoch = true;
+  EXPECT_EQ(executive.step(seconds(21), refused).commands.at(0).plan, 3U) << "the question again";
+  EXPECT_EQ(executive.cancel_all(seconds(30)).commands.at(0).plan, 3U);
 }
 
 TEST(Loading, WithoutAPlanObservationsAreKept) {

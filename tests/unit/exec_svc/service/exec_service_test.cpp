@@ -9,6 +9,7 @@
 #include <set>
 
 #include "exec_svc/limits.hpp"
+#include "exec_svc/wire_service.hpp"
 #include "tests/unit/exec_svc/planetary_fixture.hpp"
 #include "tests/unit/exec_svc/service/exec_seat.hpp"
 
@@ -27,6 +28,14 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::StartsWith;
+
+TEST(ExecService, ACommandTellsThePlanThatIssuedItsKey) {
+  executive::Command command;
+  command.plan = 3;
+  EXPECT_EQ(to_wire(command, "exec_svc", 50, 1).plan_version(), 3U);
+  command.plan = 0;
+  EXPECT_EQ(to_wire(command, "exec_svc", 50, 1).plan_version(), 50U);
+}
 
 TEST(ExecService, AGoalIsJournalledAcknowledgedPlannedAndAchieved) {
   ExecSeat seat;
