@@ -32,8 +32,8 @@ inline constexpr std::size_t kReasonBytes = 2'000;
 /// Bounds the bytes of a downlink schedule or a mission outlook, well below what their topics carry; they
 /// count what had no room.
 inline constexpr std::size_t kOutlookBytes = 8U << 20U;
-/// Bound what a fact may say: the bytes of one data product, and the amount of an observed number. Each is far beyond any
-/// robot, and what engines add up of such values stays exact.
+/// Bound what a fact may say: the bytes of one data product, and the amount of an observed number. Each is far beyond
+/// any robot, and what engines add up of such values stays exact.
 inline constexpr std::uint64_t kProductBytes = 1'000'000'000'000'000;
 inline constexpr double kObservedAmount = 1e15;
 /// Bounds the decisions of running plans that are open at one time.

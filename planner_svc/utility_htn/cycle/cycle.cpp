@@ -197,8 +197,8 @@ Duration Cycle::length(const Block& block, std::size_t link) const {
              : duration(task);
 }
 
-// Returns until when a downlink that stands may last, at most until the wanted time: something that is fixed or committed
-// may need the same then, what it needs itself ends, as a view of Earth does, or the mission does.
+// Returns until when a downlink that stands may last, at most until the wanted time: something that is fixed or
+// committed may need the same then, what it needs itself ends, as a view of Earth does, or the mission does.
 Time Cycle::room_until(const Link& of, Time wanted) const {
   Time out = std::min({wanted, free_until(network_, blocks_, of), plan_end_, network_.tasks[of.task].closes});
   for (const Constraint& needed : network_.tasks[of.task].constraints) {

@@ -17,8 +17,8 @@ constexpr Duration kFarthestExpectation = std::chrono::hours(1);
 
 }  // namespace
 
-// What was sampled before the past was folded, and is heard after that, counts from its edge on if nothing newer is known:
-// a state is reported when it changes, and not again.
+// What was sampled before the past was folded, and is heard after that, counts from its edge on if nothing newer is
+// known: a state is reported when it changes, and not again.
 void Cycle::observe(Index timeline, Time sampled, double value) {
   const bool newest = observations_.is_newest(timeline, sampled);
   const Time anchored = newest ? std::max(sampled, timelines_.past()) : sampled;

@@ -24,9 +24,9 @@ class Sessions {
   /// Finds anew the next downlink of what has begun, if data wait on board.
   void look(const std::vector<Block>& blocks, const delivery::Delivery& delivery);
   /// Returns what a downlink takes. Of one that is committed that is what the executive was told. Of another one of
-  /// what has begun it is what the data take that wait for it, of those that go with it: as far as `room`, its limit and
-  /// that of its sol permit beside the other downlinks in `blocks`. It is never less than the network says, which holds
-  /// for what has not begun.
+  /// what has begun it is what the data take that wait for it, of those that go with it: as far as `room`, its limit
+  /// and that of its sol permit beside the other downlinks in `blocks`. It is never less than the network says, which
+  /// holds for what has not begun.
   temporal::Duration length(const std::vector<Block>& blocks, const Block& of, std::size_t link,
                             const delivery::Delivery& delivery, const model::Values& values,
                             temporal::Duration room = temporal::no_bound) const;

@@ -116,8 +116,9 @@ class Delivery {
   /// Returns whether the network names a rate: otherwise all data get home without a schedule.
   bool limited() const { return rules_.has_rate(); }
   /// Returns how long the data take that wait on board, of all that these requests have generated but what is residual,
-  /// as far as they go with one downlink of at most this length: a product is not split. Products that do not go together
-  /// are taken in the order in which they are sent. A downlink that is to bring them home lasts that long at least (R127).
+  /// as far as they go with one downlink of at most this length: a product is not split. Products that do not go
+  /// together are taken in the order in which they are sent. A downlink that is to bring them home lasts that long at
+  /// least (R127).
   temporal::Duration transmission(const std::set<model::TaskIndex>& requests, const model::Values& values,
                                   temporal::Duration longest = temporal::no_bound) const;
   /// Returns the requests whose data wait on board, without residual ones.
