@@ -82,6 +82,18 @@ TEST(RestartedEngine, KnowsWhatWasReportedBeforeItBegan) {
   EXPECT_FALSE(has("send_sample")) << "which takes 350 J";
 }
 
+// A cycle may take longer than its interval; here three have passed until the engine is stepped again.
+TEST(LateCycle, LeavesOutTheIntervalsThatHavePassed) {
+  UtilityEngine engine = new_engine();
+  EXPECT_EQ(engine.step(beginning()).wake, Time(10s));
+  StepInputs late;
+  late.now = Time(35s);
+  late.observations = {{"battery", 900.0, Time(35s)}};
+  const StepOutput out = engine.step(late);
+  EXPECT_THAT(out.account.parts, Contains("commit")) << "the report alone brings about a cycle";
+  EXPECT_EQ(out.wake, Time(40s));
+}
+
 // The timelines that nobody reports stand in the plan as they were when it was sent; what ended later moved them, too.
 TEST(RestartedEngine, KnowsWhatATaskHasMadeOfATimelineSinceTheVersionThatIsExecuted) {
   UtilityEngine died = new_engine();
