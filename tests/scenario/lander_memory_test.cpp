@@ -37,6 +37,8 @@ void make_longer(const fs::path& mission) {
          "  - {at_s: 10, goal: {id: mission, kind: mission, importance: hard}}\n";
 }
 
+constexpr double kMostKib = 64 * 1024;  // of each process, after the first day
+
 struct Peaks {
   double first_half = 0, second_half = 0;  // KiB, of what comes after the first day
   int samples = 0;
@@ -82,6 +84,7 @@ TEST_P(LanderMemory, OfPlannerAndExecutiveIsFlatAfterTheFirstDayOfThirty) {
               << " KiB to day 30, " << peaks.samples << " samples\n";
     EXPECT_GT(peaks.samples, 40) << process;
     EXPECT_LE(peaks.second_half, 1.02 * peaks.first_half) << process;
+    EXPECT_LT(std::max(peaks.first_half, peaks.second_half), kMostKib) << process;
   }
 }
 
