@@ -85,16 +85,47 @@ void MapExchange::hear(const v1::TerrainFinding& finding) {
   const std::string& robot = node_.options().robot;
   if (!robot.empty() && finding.robot() != robot) return;  // the world speaks for all robots
   const std::string id = finding.id().substr(0, SharedMap::kNameBytes);
-  if (host_.busy())
-    return refuse("map.finding_refused", "finding " + id, finding.robot(),
-                  "it comes while the map is being built; send it again");
   const Intake intake = map_.find(obstacle_of(finding));
   if (!intake.refusal.empty())
     return refuse("map.finding_refused", "finding " + id, finding.robot(), intake.refusal);
   if (!intake.changed) return;
-  host_.changed();
+  owing_ = true;
+  give();
+}
+
+// What is found while the map takes what was found before goes there in one, so that a burst of findings fills no queue:
+// nobody sends them again.
+void MapExchange::give() {
+  if (giving_ || !owing_) return;
+  giving_ = true;
+  found();
+  host_.settled([this](std::uint64_t) {
+    giving_ = false;
+    give();
+  });
+}
+
+void MapExchange::found() {
+  update();
   show();
   if (settings_.sharing == MapSharing::at_once) tell({});
+}
+
+// What changes no cell of this map may change some of another robot's: it has a version of its own, too.
+void MapExchange::update() {
+  owing_ = false;
+  host_.changed();
+  host_.settled([this](std::uint64_t version) {
+    if (std::exchange(map_version_, version) == version) ++without_cells_;
+  });
+}
+
+void MapExchange::when_settled(std::function<void(std::uint64_t version)> then) {
+  if (owing_) found();
+  host_.settled([this, then = std::move(then)](std::uint64_t version) {
+    map_version_ = version;
+    then(version + without_cells_);
+  });
 }
 
 void MapExchange::hear(const v1::MapPatch& patch) {
@@ -129,7 +160,7 @@ void MapExchange::take_over(const v1::MapPatch& patch, const MapPatch& in, const
       what + " brings the map of " + in.robot + " up to its version " + std::to_string(patch.map_version()),
       {{"author", in.author.substr(0, SharedMap::kNameBytes)},
        {"map_version", std::to_string(patch.map_version())}});
-  host_.changed();
+  owing_ ? found() : update();  // in either case with all that is known
 }
 
 // What is told is what is known now; the version is that of the map with all of it.
@@ -137,7 +168,7 @@ void MapExchange::tell(const std::function<void(std::uint64_t, std::size_t)>& to
   v1::MapPatch patch;
   patch.author(node_.options().name);
   for (const FoundObstacle& one : map_.all()) patch.obstacles().push_back(to_wire(one));
-  host_.settled([this, patch = std::move(patch), told](std::uint64_t version) mutable {
+  when_settled([this, patch, told](std::uint64_t version) mutable {
     const std::size_t count = patch.obstacles().size();
     patch.map_version(version);
     patches_->write(std::move(patch));
@@ -158,7 +189,7 @@ void MapExchange::show() {
   v1::KnownMap known;
   known.planner(node_.options().name);
   for (const FoundObstacle& one : map_.all()) known.obstacles().push_back(to_wire(one));
-  host_.settled([this, known = std::move(known)](std::uint64_t version) mutable {
+  when_settled([this, known](std::uint64_t version) mutable {
     known.map_version(version);
     known.told_version(told_version_);
     known.told_us(told_us_);
@@ -227,7 +258,7 @@ void MapExchange::end_merges() {
     const TakenPatch* patch = map_.newest(one.author);
     if (patch == nullptr || patch->map_version < one.version) return false;
     node_.cancel(one.timer);
-    host_.settled([this, key = one.key, patch = *patch](std::uint64_t version) {
+    when_settled([this, key = one.key, patch = *patch](std::uint64_t version) {
       owner::CommandStatus status{owner::Stage::completed, "", "", {}};
       status.results.values = {{"map_version", static_cast<double>(version)},
                                {"obstacles", static_cast<double>(map_.all().size())},

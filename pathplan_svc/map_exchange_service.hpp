@@ -23,7 +23,8 @@ struct Team {
 };
 
 /// Keeps a robot's map beyond the loaded one up to date (topics `terrain_finding`, `map_patch`), and tells it when its
-/// settings or the command `tell` say so; `merge` ends when a patch has been taken.
+/// settings or the command `tell` say so; `merge` ends when a patch has been taken. A version that it tells counts each
+/// change of what it knows, also one that changes no cell of its own map.
 /// It lives as long as its node's loop runs.
 class MapExchange final : private services::owner::Driver {
  public:
@@ -50,6 +51,10 @@ class MapExchange final : private services::owner::Driver {
   };
 
   void hear(const v1::TerrainFinding&);
+  void give();
+  void found();
+  void update();
+  void when_settled(std::function<void(std::uint64_t version)> then);
   void hear(const v1::MapPatch&);
   void take_over(const v1::MapPatch&, const MapPatch& in, const std::string& what);
   void show();
@@ -79,6 +84,10 @@ class MapExchange final : private services::owner::Driver {
   std::optional<services::Publisher<v1::MapPatch>> patches_;     // of who tells
   std::optional<services::Publisher<v1::KnownMap>> known_maps_;  // of a robot's
   std::map<std::string, temporal::Time> taken_at_;               // the newest patch, by author
+  bool owing_ = false;               // something was found that the map has not been given yet
+  bool giving_ = false;              // what was found before is on its way there
+  std::uint64_t map_version_ = 0;    // as it was known last; 0: not yet
+  std::uint64_t without_cells_ = 0;  // changes of what is known that left map_version_ as it was
   std::uint64_t told_version_ = 0;
   std::int64_t told_us_ = -1;
   std::optional<services::owner::CommandServer> commands_;

@@ -255,6 +255,39 @@ TEST_F(MapExchange, AMergeWaitsForTheVersionThatItNames) {
   EXPECT_EQ(result("a1", "map_version"), 3);
 }
 
+// A smaller robot's map may lose no cell by what holds off a larger one: the merge waits for that all the same.
+TEST_F(MapExchange, AMergeWaitsForAFindingThatChangesNoCellOfItsAuthorsMap) {
+  set_light_time(5s);
+  start();
+  find(1s, "scout", "scout-soil-1", 20, 20);
+  find(10s, "scout", "scout-soil-2", 20, 20.2, 1.75);
+  command(11s, "scout.path", "map", "tell", "a1");
+  merge(12s, "a2", {{"version", "3"}});
+  run(30s);
+  EXPECT_EQ(versions_["scout.path"], 2U) << "no cell of the scout's map is another one";
+  EXPECT_THAT(words(), ElementsAre("11 a1 accepted", "11 a1 completed", "12 a2 accepted", "15 a2 completed"));
+  EXPECT_EQ(result("a1", "map_version"), 3);
+  EXPECT_EQ(result("a2", "author_version"), 3);
+  EXPECT_EQ(result("a2", "obstacles"), 2);
+  EXPECT_EQ(known_["scout.path"].map_version(), 3U);
+  EXPECT_EQ(known_["scout.path"].told_version(), 3U);
+}
+
+// A path planner that starts again gets all findings of its robot at once, each of them once.
+TEST_F(MapExchange, NoFindingOfTheRobotIsLostWhereMoreComeThanChangesMayWait) {
+  start();
+  for (int i = 0; i < 400; ++i)
+    find(1s, "scout", "scout-soil-" + std::to_string(1000 + i), i / 20 * 2 + 0.5, i % 20 * 2 + 0.5, 0.3);
+  ask(2s, "scout.path");
+  run(3s);
+  EXPECT_THAT(events_, Not(Contains("scout.path map.finding_refused")));
+  EXPECT_EQ(known_["scout.path"].obstacles().size(), 400U);
+  ASSERT_FALSE(patches_.empty());
+  EXPECT_EQ(patches_.back().obstacles().size(), 400U);
+  EXPECT_LE(patches_.size(), 3U) << "the team is told of a burst, and not of each of it";
+  EXPECT_GE(gap(replies_["scout.path"].at(0), 32.5, 20.5), 0.7) << "the last ones are in the map, too";
+}
+
 TEST_F(MapExchange, AMergeThatWaitsInVainFailsAtItsLatestEndOrAtItsOwnTime) {
   start();
   merge(1s, "a1", {{"version", "2"}}, 5'000'000);
