@@ -93,8 +93,8 @@ void MapExchange::hear(const v1::TerrainFinding& finding) {
   give();
 }
 
-// What is found while the map takes what was found before goes there in one, so that a burst of findings fills no queue:
-// nobody sends them again.
+// What is found while the map takes what was found before goes there in one, so that a burst of findings fills no
+// queue: nobody sends them again.
 void MapExchange::give() {
   if (giving_ || !owing_) return;
   giving_ = true;
