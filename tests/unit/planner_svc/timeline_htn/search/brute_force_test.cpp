@@ -6,6 +6,7 @@
 #include <string>
 
 #include "planner_svc/timeline_htn/checking/check.hpp"
+#include "planner_svc/timeline_htn/search/resolvers.hpp"
 #include "tests/unit/planner_svc/timeline_htn/search/oracle.hpp"
 #include "tests/unit/planner_svc/timeline_htn/search/plans.hpp"
 #include "tests/unit/planner_svc/timeline_htn/search/random_problem.hpp"
@@ -30,7 +31,9 @@ struct Tally {
   int unfit = 0;  ///< contradict themselves, which is told before
 };
 
-void compare(std::uint64_t seed, const RandomProblem& problem, Tally& tally) {
+void compare(std::uint64_t seed, const RandomProblem& problem, Tally& tally,
+             const std::string& resolver = "blind") {
+  SCOPED_TRACE(resolver);
   const std::string text = RandomProblem(problem).text();
   mission::Findings findings;
   const auto model = reading::parse_model({{"random", text}}, findings);
@@ -38,7 +41,7 @@ void compare(std::uint64_t seed, const RandomProblem& problem, Tally& tally) {
     ++tally.unfit;
     return;
   }
-  const Planned result = planned(*model, {}, 20'000);
+  const Planned result = planned(*model, resolver_named(resolver).value(), 20'000);
   if (result.outcome == Outcome::solved) {
     ++tally.solvable;
     ASSERT_TRUE(Oracle(*model, 20).allows(sequences_of(*model, *result.plan))) << "seed " << seed << "\n"
@@ -59,6 +62,21 @@ TEST(TimelineSearchAgainstBruteForce, FindsAPlanWhereThereIsOneAndNoneWhereThere
   EXPECT_GT(tally.unsolvable, 40);
   EXPECT_LT(tally.undecided, 40);  // in so many steps, where time is tight
   EXPECT_LT(tally.unfit, 200);
+}
+
+// What a heuristic takes to be impossible, or leaves for later, hides no plan.
+TEST(TimelineSearchAgainstBruteForce, EveryHeuristicAndOrderFindsAPlanWhereThereIsOne) {
+  for (const std::string& resolver : resolver_names()) {
+    Tally tally;
+    for (std::uint64_t seed = 0; seed < 50 && !HasFatalFailure(); ++seed) {
+      compare(seed, RandomProblem(seed), tally, resolver);
+      compare(seed, RandomProblem::with_windows(seed), tally, resolver);
+      compare(seed, RandomProblem::with_late_goals(seed), tally, resolver);
+    }
+    EXPECT_GT(tally.solvable, 60) << resolver;
+    EXPECT_GT(tally.unsolvable, 20) << resolver;
+    EXPECT_LT(tally.undecided, 30) << resolver;
+  }
 }
 
 // What is predicted of a timeline stands at its times, and needs and conditions find it there or not at all.
