@@ -21,8 +21,9 @@ std::string damage_of(const std::filesystem::path& file);
 /// new one takes its place with what can be read, row by row from both ends of each table: goals first, then numbers
 /// and the records of what happened. Inputs and snapshots are left behind, since nobody can replay a part of them. The
 /// new one's text kDamage says so, and its epoch is at least that of the mark (high_water_mark.hpp). It stands as
-/// FILE.salvaged while the damaged one is moved; a start that finds it there goes on from there. Does nothing to one that is whole. Throws as damage_of() does, with the damaged
-/// one in its place, and JournalError if there is no place for the new one.
+/// FILE.salvaged while the damaged one is moved; a start that finds it there goes on from there. Does nothing to one
+/// that is whole. Throws as damage_of() does, with the damaged one in its place, and JournalError if there is no place
+/// for the new one.
 void salvage_if_damaged(const std::filesystem::path& file);
 
 }  // namespace roci::exec::journal

@@ -15,7 +15,7 @@
 
 namespace roci::services::health {
 
-/// Ends this process, since another one has its name. No restart mends that.
+/// Ends this process, since another one has its name. A new start, as a later incarnation, may prevail.
 class Superseded : public std::invalid_argument {
  public:
   using std::invalid_argument::invalid_argument;

@@ -78,8 +78,9 @@ void Supervisor::after_end(const std::string& name, Service& service, const Endi
     terminate_at_ = master_is_clock_ ? now + clock::wall_seconds(kLeaveS) : now;
   }
   if (clean || terminate_at_) return;
-  const std::string what =
-      to_string(ending) + (service.hung_reason.empty() ? "" : " (" + service.hung_reason + ")");
+  const bool superseded = ending.exited && ending.code == kServiceSuperseded;
+  const std::string why = superseded ? "another process of the run has its name" : service.hung_reason;
+  const std::string what = to_string(ending) + (why.empty() ? "" : " (" + why + ")");
   if (ending.exited && ending.code == kServiceClockGone)
     return fail(name, "lost the clock of the run", false, now);
   if (ending.exited && ending.code == kServiceBadInput) return fail(name, what, true, now);

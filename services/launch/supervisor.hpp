@@ -17,12 +17,13 @@
 
 namespace roci::services::launch {
 
-/// Lists exit codes of services (docs/exit-codes.md) that a new start does not mend.
+/// Lists exit codes of services (docs/exit-codes.md) that mean more than that it died.
 enum ServiceExit {
   kServiceStopped = 0,
   kServiceBadInput = 2,
   kServiceNoTransport = 3,
-  kServiceClockGone = 4
+  kServiceClockGone = 4,
+  kServiceSuperseded = 5
 };
 
 /// Says why a run cannot go on.

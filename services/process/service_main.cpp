@@ -6,6 +6,7 @@
 #include <iostream>
 
 #include "core/mission/entry.hpp"
+#include "services/health/namesake_watch.hpp"
 #include "services/health/watchdog_notifier.hpp"
 #include "services/node.hpp"
 #include "services/process/clock_watch.hpp"
@@ -18,11 +19,12 @@ namespace roci::services::process {
 namespace {
 
 // docs/exit-codes.md lists these under "Services".
-enum ExitCode { kStopped = 0, kFailed = 1, kBadInput = 2, kNoTransport = 3, kClockGone = 4 };
+enum ExitCode { kStopped = 0, kFailed = 1, kBadInput = 2, kNoTransport = 3, kClockGone = 4, kSuperseded = 5 };
 
 ExitCode code_for(const std::exception& error) {
   const auto is = [&]<class Error>() { return dynamic_cast<const Error*>(&error) != nullptr; };
   if (is.operator()<transport::TransportError>()) return kNoTransport;
+  if (is.operator()<health::Superseded>()) return kSuperseded;
   if (is.operator()<mission::FileError>() || is.operator()<std::invalid_argument>()) return kBadInput;
   if (is.operator()<clock::ClockGone>()) return kClockGone;
   return kFailed;

@@ -50,9 +50,9 @@ TEST_P(AttackedRun, GoesOnAndNamesWhoIsNotOfIt) {
               AllOf(HasSubstr("2\t"), HasSubstr("is held by another run, \"attacked\"")));
   EXPECT_THAT(printed("same-run"), AllOf(HasSubstr("2\t"), HasSubstr("run \"attacked\" has a ")));
   EXPECT_THAT(printed("second-executive"),
-              AllOf(HasSubstr("2\t"), HasSubstr("this run has another exec_svc")));
+              AllOf(HasSubstr("5\t"), HasSubstr("this run has another exec_svc")));
   EXPECT_THAT(printed("second-simulator"),
-              AllOf(HasSubstr("2\t"), HasSubstr("this run has another sim_svc")));
+              AllOf(HasSubstr("5\t"), HasSubstr("this run has another sim_svc")));
   EXPECT_THAT(printed("second-owner"), HasSubstr("0\t"));
   EXPECT_THAT(printed("intruder"), AllOf(HasSubstr("0\t"), HasSubstr("ack y 1000000 rejected epoch-jump")));
   EXPECT_THAT(printed("events"),

@@ -2,18 +2,18 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sqlite3.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
-#include <csignal>
 #include <filesystem>
 
 #include "exec_svc/journal/database_files.hpp"
 #include "exec_svc/journal/journal.hpp"
+#include "tests/unit/core/durable/full_disk.hpp"
 #include "tests/unit/exec_svc/planetary_fixture.hpp"
 
 namespace roci::exec {
 
+using durable::FullDisk;
 using journal::DiskError;
 using journal::Durability;
 using journal::Journal;
@@ -22,22 +22,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using temporal::seconds;
-
-// No file of this process may grow beyond `bytes`: to SQLite a disk that cannot be written.
-class FullDisk {
- public:
-  explicit FullDisk(rlim_t bytes) {
-    std::signal(SIGXFSZ, SIG_IGN);
-    getrlimit(RLIMIT_FSIZE, &before_);
-    const rlimit less{bytes, before_.rlim_max};
-    setrlimit(RLIMIT_FSIZE, &less);
-  }
-  ~FullDisk() { end(); }
-  void end() const { setrlimit(RLIMIT_FSIZE, &before_); }
-
- private:
-  rlimit before_{};
-};
 
 class JournalDisk : public ::testing::Test {
  protected:

@@ -160,6 +160,24 @@ TEST_F(SupervisorTest, BadInputIsNotTriedAgain) {
   EXPECT_EQ(starts.size(), 2U);
 }
 
+// Its next incarnation is the later one of the two, and goes on; whoever outdoes each of them ends the run.
+TEST_F(SupervisorTest, AServiceThatYieldsToANamesakeIsStartedAgainAsALaterIncarnation) {
+  script = {{"arm_svc", "exit 5"}, {"sim_svc", "exec tail -f /dev/null"}};
+  auto supervisor = make({"arm_svc", "sim_svc"}, false);
+  supervisor.start(start);
+  auto now = start;
+  for (std::size_t death = 1; death <= 5; ++death, now += 10s) {
+    EXPECT_FALSE(supervisor.failure());
+    turn_until(supervisor, now, [&] { return deaths.size() == death; });
+  }
+  EXPECT_EQ(deaths[0],
+            "arm_svc ended with code 5 (another process of the run has its name); starting it again");
+  EXPECT_THAT(starts, Contains("arm_svc#5"));
+  turn_until(supervisor, now, [&] { return supervisor.finished(); });
+  ASSERT_TRUE(supervisor.failure());
+  EXPECT_FALSE(supervisor.failure()->bad_input);
+}
+
 TEST_F(SupervisorTest, AHungServiceIsKilledAndStartedAgain) {
   script = {{"arm_svc", "exec tail -f /dev/null"}, {"sim_svc", "exec tail -f /dev/null"}};
   auto supervisor = make({"arm_svc", "sim_svc"}, false);

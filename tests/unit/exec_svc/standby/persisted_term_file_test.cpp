@@ -2,11 +2,11 @@
 #include "exec_svc/standby/persisted_term_file.hpp"
 
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
-#include <csignal>
 #include <fstream>
+
+#include "tests/unit/core/durable/full_disk.hpp"
 
 namespace roci::exec::standby {
 namespace {
@@ -15,22 +15,6 @@ namespace fs = std::filesystem;
 using journal::DiskError;
 using journal::Durability;
 using journal::JournalError;
-
-// No file of this process may have a byte.
-class FullDisk {
- public:
-  FullDisk() {
-    std::signal(SIGXFSZ, SIG_IGN);
-    getrlimit(RLIMIT_FSIZE, &before_);
-    const rlimit none{0, before_.rlim_max};
-    setrlimit(RLIMIT_FSIZE, &none);
-  }
-  ~FullDisk() { end(); }
-  void end() const { setrlimit(RLIMIT_FSIZE, &before_); }
-
- private:
-  rlimit before_{};
-};
 
 class PersistedTermFileTest : public ::testing::Test {
  protected:
@@ -70,7 +54,7 @@ TEST_F(PersistedTermFileTest, OneThatIsDamagedIsKeptAndItsMemberIsInDoubt) {
 TEST_F(PersistedTermFileTest, AFullDiskIsWaitedFor) {
   PersistedTermFile term(file, Durability::process);
   term.keep({1, false, 0});
-  const FullDisk full;
+  const durable::FullDisk full(0);
   EXPECT_THROW(term.keep({3, true, 2}), DiskError);
   EXPECT_EQ(read(), (PersistedTerm{1, false, 0}));
   int waits = 0, overs = 0;

@@ -2,17 +2,16 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
 #include <cmath>
-#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <map>
 #include <optional>
 
 #include "services/owner/command_wire.hpp"
+#include "tests/unit/core/durable/full_disk.hpp"
 #include "tests/unit/services/owner/example_driver.hpp"
 #include "tests/unit/services/sim_run.hpp"
 
@@ -233,28 +232,11 @@ TEST(CommandServer, ACancelMayBeRefused) {
   EXPECT_THAT(heard, ElementsAre("", "repairing", "cannot-cancel"));
 }
 
-// Files of this process cannot grow beyond this meanwhile, as on a full disk.
-class FullDisk {
- public:
-  explicit FullDisk(std::uintmax_t size) {
-    std::signal(SIGXFSZ, SIG_IGN);
-    getrlimit(RLIMIT_FSIZE, &before_);
-    const rlimit full{static_cast<rlim_t>(size), before_.rlim_max};
-    setrlimit(RLIMIT_FSIZE, &full);
-  }
-  ~FullDisk() { setrlimit(RLIMIT_FSIZE, &before_); }
-  FullDisk(const FullDisk&) = delete;
-  FullDisk& operator=(const FullDisk&) = delete;
-
- private:
-  rlimit before_{};
-};
-
 // What was done while the disk took nothing is kept once it takes something.
 TEST(CommandServer, AFullDiskLosesNoKey) {
   const auto path = std::filesystem::temp_directory_path() / ("roci_full_" + std::to_string(::getpid()));
   std::filesystem::remove(path);
-  std::optional<FullDisk> full;
+  std::optional<durable::FullDisk> full;
   std::vector<std::string> told;
   {
     SimRun run({"master", "drill"});

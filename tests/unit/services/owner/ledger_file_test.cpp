@@ -2,13 +2,12 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
-#include <csignal>
 #include <fstream>
 #include <optional>
 
+#include "tests/unit/core/durable/full_disk.hpp"
 #include "tests/unit/core/durable/sync_record.hpp"
 
 namespace roci::services::owner {
@@ -74,27 +73,12 @@ TEST_F(LedgerFileTest, BegunAnewItIsOnTheDiskUnderItsName) {
   EXPECT_THAT(LedgerFile(path).read(), ElementsAre(ended, taken));
 }
 
-// No file of this process may grow: to its writer a full disk.
-class FullDisk {
- public:
-  explicit FullDisk(rlim_t bytes) {
-    std::signal(SIGXFSZ, SIG_IGN);
-    getrlimit(RLIMIT_FSIZE, &before_);
-    const rlimit less{bytes, before_.rlim_max};
-    setrlimit(RLIMIT_FSIZE, &less);
-  }
-  ~FullDisk() { setrlimit(RLIMIT_FSIZE, &before_); }
-
- private:
-  rlimit before_{};
-};
-
 TEST_F(LedgerFileTest, ATornFileIsOpenedOnAFullDiskAndGoesOnOnceThereIsRoom) {
   { LedgerFile(path).append(taken); }
   std::filesystem::resize_file(path, std::filesystem::file_size(path) - 5);
   std::optional<LedgerFile> file;
   {
-    const FullDisk full(std::filesystem::file_size(path));
+    const durable::FullDisk full(std::filesystem::file_size(path));
     ASSERT_NO_THROW(file.emplace(path));
     EXPECT_THROW(file->append(ended), std::system_error);
   }
