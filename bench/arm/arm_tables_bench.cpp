@@ -1,7 +1,7 @@
-// This bench asks the arm's estimates for the function tables of a satellite: all motions from slot to slot and from home
-// to each slot, without and with a module, as the functions of missions/orbital do. Motions are drawn in random order
-// until all are known or the seconds are spent. It tells the processor time of an exact value and of a lower bound.
-// Arm and poses of any number of slots come from bench/growth/lattice.py. From anywhere:
+// This bench asks the arm's estimates for the function tables of a satellite: all motions from slot to slot and from
+// home to each slot, without and with a module, as the functions of missions/orbital do. Motions are drawn in random
+// order until all are known or the seconds are spent. It tells the processor time of an exact value and of a lower
+// bound. Arm and poses of any number of slots come from bench/growth/lattice.py. From anywhere:
 // build/release/bench/bench_arm_tables FOLDER [SECONDS] [SEED]
 #include <algorithm>
 #include <cstdint>
