@@ -23,8 +23,8 @@ class GoalsApart {
   /// Keeps the goals of this journal: they are durable before this returns. Throws DiskError, with nothing changed, if
   /// the disk does not take them.
   void keep(const journal::Journal& replaced) const;
-  /// Returns what is kept, oldest first. Of a file that is damaged it returns what can be read; the damaged file is kept
-  /// (journal/salvage.hpp), and take_damage() tells of it.
+  /// Returns what is kept, oldest first. Of a file that is damaged it returns what can be read; the damaged file is
+  /// kept (journal/salvage.hpp), and take_damage() tells of it.
   std::vector<goals::GoalRecord> goals();
   /// Returns whether there are files that the disk did not let goals() read; a later call may.
   bool waits_for_disk() const { return waits_for_disk_; }

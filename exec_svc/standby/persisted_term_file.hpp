@@ -19,9 +19,9 @@ class PersistedTermFile {
 
   /// Reads the term; it is as new if there is no file. Throws JournalError for one that cannot be read.
   PersistedTerm read() const;
-  /// Keeps a file that cannot be read as FILE.damaged-1 (2, …), whose name it returns, and begins a new one with the term
-  /// of a member whose journal ends here. That member is in doubt: it has led, if at all, in epochs that nobody tells
-  /// it, and goes beyond them. Throws and waits as keep() does.
+  /// Keeps a file that cannot be read as FILE.damaged-1 (2, …), whose name it returns, and begins a new one with the
+  /// term of a member whose journal ends here. That member is in doubt: it has led, if at all, in epochs that nobody
+  /// tells it, and goes beyond them. Throws and waits as keep() does.
   std::filesystem::path begin_anew(const journal::Position& newest);
   /// Writes what is new: either all of it stands in the file or nothing. While the disk takes nothing it waits as
   /// wait_for_disk() says, or throws DiskError.

@@ -56,8 +56,8 @@ struct LedgerEntry {
 /// further ahead is refused and told the newest. A stop is taken from anybody; a fall-back from who holds the
 /// subsystem's lease, or from anybody while nobody does.
 ///
-/// The commander whose command a subsystem took last holds its lease (Gray and Cheriton, 1989) until release(). A command
-/// that is rejected gives the lease back to who held it before.
+/// The commander whose command a subsystem took last holds its lease (Gray and Cheriton, 1989) until release(). A
+/// command that is rejected gives the lease back to who held it before.
 class CommandLedger {
  public:
   /// Bounds the commanders that have an epoch here. A new one takes the place of the one that has commanded longest ago

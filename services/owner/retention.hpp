@@ -24,8 +24,8 @@ struct IssueMark {
 /// Says which ended keys may be forgotten. Guarantees: a key that was forgotten is recognised for good by its mark, so
 /// it is never carried out again; the newest kKept ended keys are not forgotten, nor any of a commander's newest plan.
 /// What does not count (a stop, a fall-back, what is sent in another's name) or tells no plan cannot be told from a new
-/// one once it is forgotten, so more of it is kept: kWithoutPlan to twice as many, then the oldest go. It moves no mark,
-/// or one forged epoch would make all that its commander sends look old.
+/// one once it is forgotten, so more of it is kept: kWithoutPlan to twice as many, then the oldest go. It moves no
+/// mark, or one forged epoch would make all that its commander sends look old.
 class Retention {
  public:
   /// So many ended commands keep their last status. Whoever asks for one asks for what it commanded last: after a lost

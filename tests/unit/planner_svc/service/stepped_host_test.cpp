@@ -303,13 +303,11 @@ TEST_F(SteppedService, AnImpossibleFactIsToldAndHeardAsFarAsItMayBe) {
   EXPECT_THAT(heard_, ElementsAre("battery 5 at 1 s", "battery 4 at 4 s",
                                   "product image of look#1.0, 1000000000000000 bytes, fate 0",
                                   "dig#1.0 ended at 6 s"));
-  EXPECT_THAT(
-      events_,
-      ElementsAre("planner.measured: the value 3.40282e+38 of 'battery' is not believed (1 times so far "
-                  "for battery)",
-                  ::testing::HasSubstr("planner.measured: the time of an observation lies"),
-                  ::testing::HasSubstr("'image' has 18446744073709551615 bytes"),
-                  ::testing::HasSubstr("planner.measured: the time of a step lies")));
+  EXPECT_THAT(events_,
+              ElementsAre(::testing::HasSubstr("of 'battery' is not believed (1 times so far for battery)"),
+                          ::testing::HasSubstr("planner.measured: the time of an observation lies"),
+                          ::testing::HasSubstr("'image' has 18446744073709551615 bytes"),
+                          ::testing::HasSubstr("planner.measured: the time of a step lies")));
 }
 
 }  // namespace
