@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "pathplan_svc/pathplan_service.hpp"
+#include "services/process/domain_claim.hpp"
 #include "services/publisher.hpp"
 #include "services/rpc.hpp"
 #include "tests/unit/services/sim_run.hpp"
@@ -21,11 +22,6 @@ using testing::HasSubstr;
 namespace topics = services::topics;
 
 constexpr char kMission[] = ROCI_SOURCE_DIR "/missions/faster";
-
-int domain() {
-  static int last = 0;
-  return 100 + ++last % 60;
-}
 
 v1::MapPatch patch(const std::string& author, const std::string& id, double x, double y,
                    std::uint64_t version = 2) {
@@ -88,7 +84,8 @@ class BadPatches : public testing::TestWithParam<std::pair<const char*, const ch
   }
 
   const std::filesystem::path folder_;
-  services::SimRun run_{{"sim_svc", "primary.path", "scout.path"}, domain()};
+  services::process::DomainClaim domain_;
+  services::SimRun run_{{"sim_svc", "primary.path", "scout.path"}, domain_.id()};
   services::Node& world_ = add_world();
   services::Client<v1::PathRequest, v1::PathReply> paths_{world_, topics::path_request};
   std::unique_ptr<services::Service> planner_;

@@ -19,12 +19,6 @@ std::string text_of_number(double value) {
   return out.str();
 }
 
-// Two yards at most stand at a time, and a transport has 232 domains.
-int domain() {
-  static int last = 0;
-  return 100 + ++last % 60;
-}
-
 }  // namespace
 
 YardCommand drive(const std::string& robot, double x, double y) {
@@ -64,7 +58,7 @@ Yard::Yard(const std::string& scenario, std::vector<std::string> vendors, Script
     : folder_(std::filesystem::temp_directory_path() / ("roci_yard_" + std::to_string(::getpid()))),
       vendors_(std::move(vendors)),
       script_(std::move(script)),
-      run_({"sim_svc", "primary.path", "scout.path", "driver"}, domain()) {
+      run_({"sim_svc", "primary.path", "scout.path", "driver"}, domain_.id()) {
   std::filesystem::create_directories(folder_);
   run_.robots = {{"primary.path", "primary"}, {"scout.path", "scout"}};
   services::RunSettings settings;

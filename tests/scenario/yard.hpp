@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/terrain/grid.hpp"
+#include "services/process/domain_claim.hpp"
 #include "services/publisher.hpp"
 #include "services/rpc.hpp"
 #include "services/service.hpp"
@@ -83,6 +84,7 @@ class Yard {
   std::filesystem::path folder_;
   std::vector<std::string> vendors_;
   Script script_;
+  services::process::DomainClaim domain_;
   services::SimRun run_;
   std::vector<std::unique_ptr<services::Service>> services_;
   services::Node* driver_ = nullptr;
