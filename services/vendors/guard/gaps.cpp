@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "services/vendors/guard/message.hpp"
 #include "services/vendors/guard/rtps_ids.hpp"
 
 namespace roci::services::vendors::guard {
@@ -16,14 +15,11 @@ SkippedNumbers& SkippedNumbers::operator+=(const SkippedNumbers& more) {
 SkippedNumbers skipped_by(const Submessage& message) {
   if (message.id != kGap || message.body.size() < 28) return {};
   const std::int64_t start = message.body.sequence_number(8), base = message.body.sequence_number(16);
-  const std::int64_t before_base = std::max(base - start, std::int64_t{0}), bits = message.body.u32(24);
+  // More than is ever let through counts as just that much, so that no sum overflows.
+  const std::int64_t before_base =
+      std::clamp(base - start, std::int64_t{0}, SkippedNumbers::kMostFromStart + 1);
+  const std::int64_t bits = message.body.u32(24);
   return start == 1 ? SkippedNumbers{before_base, bits} : SkippedNumbers{0, before_base + bits};
-}
-
-SkippedNumbers skipped_in(std::span<const std::uint8_t> message) {
-  SkippedNumbers out;
-  for_each_submessage(message, [&out](const Submessage& one) { out += skipped_by(one); });
-  return out;
 }
 
 GapBudget::Spent GapBudget::Spent::by(Time now) const {

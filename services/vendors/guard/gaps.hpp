@@ -5,7 +5,6 @@
 #include <chrono>
 #include <cstdint>
 #include <map>
-#include <span>
 
 #include "services/vendors/guard/identities.hpp"
 #include "services/vendors/guard/submessages.hpp"
@@ -31,9 +30,6 @@ struct SkippedNumbers {
 
 /// Returns what a submessage skips: nothing if it is no GAP. Its numbers must be positive (RTPS 2.3, 8.3.7.4).
 SkippedNumbers skipped_by(const Submessage&);
-
-/// Returns what all GAPs of a message that passed examine() skip.
-SkippedNumbers skipped_in(std::span<const std::uint8_t> message);
 
 /// Bounds what each socket may skip in the course of time: kBurst at once, and so much again as the rates give back.
 /// What an honest writer says too early it says again, since the reader goes on to ask.

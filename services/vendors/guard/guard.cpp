@@ -95,12 +95,13 @@ DatagramAdmission Guard::judge(std::span<const std::uint8_t> datagram, const std
   const auto& peers = policy_.peers;
   if (!peers.empty() && (!source || std::find(peers.begin(), peers.end(), source->address) == peers.end()))
     return DatagramAdmission::stranger;
-  const DatagramAdmission admission = examine(datagram);
+  SkippedNumbers skipped;
+  const DatagramAdmission admission = examine(datagram, skipped);
   if (admission != DatagramAdmission::pass || !source) return admission;
   const auto now = std::chrono::steady_clock::now();
   const DatagramAdmission claimed = identities_.claim(sender_of(datagram), *source, now);
   if (claimed != DatagramAdmission::pass) return claimed;
-  const bool may_skip = gap_budget_.take(*source, skipped_in(datagram), now);
+  const bool may_skip = gap_budget_.take(*source, skipped, now);
   return may_skip ? DatagramAdmission::pass : DatagramAdmission::bad_numbers;
 }
 

@@ -93,11 +93,16 @@ bool hides_plain_data(std::span<const std::uint8_t> message) {
 }  // namespace
 
 DatagramAdmission examine(std::span<const std::uint8_t> datagram) {
+  SkippedNumbers skipped;
+  return examine(datagram, skipped);
+}
+
+DatagramAdmission examine(std::span<const std::uint8_t> datagram, SkippedNumbers& skipped) {
   if (datagram.size() < kHeaderSize || std::memcmp(datagram.data(), "RTPS", 4) != 0 || datagram[4] != 2) {
     return DatagramAdmission::no_rtps;
   }
   const GuidPrefix sender = sender_of(datagram);
-  SkippedNumbers skipped;
+  skipped = {};
   for (auto rest = datagram.subspan(kHeaderSize); !rest.empty();) {
     const std::size_t size = size_of_first(rest);
     if (size == 0) return DatagramAdmission::cut;

@@ -11,12 +11,16 @@
 
 namespace roci::services::vendors::guard {
 
+struct SkippedNumbers;  // gaps.hpp
+
 inline constexpr std::size_t kHeaderSize = 20;  ///< of an RTPS message
 
 /// A message that passes is well-formed down to its submessages (RTPS 2.3, 8.3 and 9.4), claims no sample over
 /// kMaxSampleBytes, and speaks in discovery for its sender alone. What DDS Security has encrypted passes as it is;
 /// payloads of user topics are not looked into. It never says `stranger`, `taken_identity` or `crowd`.
 DatagramAdmission examine(std::span<const std::uint8_t> datagram);
+/// Counts in `skipped` what its GAPs skip, too; of a message that does not pass, up to where it fails.
+DatagramAdmission examine(std::span<const std::uint8_t> datagram, SkippedNumbers& skipped);
 
 /// Returns the participant that a message says it is from. The message must have an RTPS header.
 GuidPrefix sender_of(std::span<const std::uint8_t> message);

@@ -1,7 +1,6 @@
 #include "services/vendors/guard/submessages.hpp"
 
 #include "services/vendors/guard/data.hpp"
-#include "services/vendors/guard/gaps.hpp"
 #include "services/vendors/guard/rtps_ids.hpp"
 
 namespace roci::services::vendors::guard {
@@ -38,7 +37,6 @@ DatagramAdmission gap(const Submessage& message) {
   const std::int64_t start = body.sequence_number(8), base = body.sequence_number(16);
   const std::uint32_t bits = body.u32(24);
   if (start <= 0 || base <= 0 || bits > kMaxBits) return DatagramAdmission::bad_numbers;
-  if (!skipped_by(message).fits_one_datagram()) return DatagramAdmission::bad_numbers;
   return at_least(message, 28 + bytes_of_bits(bits));
 }
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <limits>
 
 #include "tests/contract/hostile/rtps_message.hpp"
 
@@ -206,6 +207,10 @@ TEST(Guard, TheGapsOfOneDatagramAreBoundedInAll) {
   Message holes = own();
   for (std::int64_t k = 0; k <= kStep / 256; ++k) holes.gap(0, kUserWriter, 2 + 256 * k, 2 + 256 * k, 256);
   EXPECT_EQ(judge(holes), DatagramAdmission::bad_numbers) << "the bits of its lists count, too";
+  constexpr std::int64_t kLast = std::numeric_limits<std::int64_t>::max();
+  for (const std::int64_t from : {1, 2})
+    EXPECT_EQ(judge(own().gap(0, kUserWriter, from, kLast, 256)), DatagramAdmission::bad_numbers)
+        << "their sum has no 64 bits";
 }
 
 TEST(Guard, TheGapsOfOneSocketAreBoundedInTime) {
