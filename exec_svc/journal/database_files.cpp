@@ -36,6 +36,13 @@ void put_in_place(const fs::path& unfinished, const fs::path& file, Durability d
   }
 }
 
+fs::path free_damaged_name(const fs::path& file) {
+  for (int number = 1;; ++number) {
+    fs::path name = fs::path(file).concat(".damaged-" + std::to_string(number));
+    if (!fs::exists(name)) return name;
+  }
+}
+
 void sync_path(const fs::path& path) {
   const fs::path there = path.empty() ? fs::path(".") : path;
   const int descriptor = open(there.c_str(), O_RDONLY | O_CLOEXEC);

@@ -19,6 +19,9 @@ void remove_database_logs(const std::filesystem::path& file);
 /// cannot be written to the disk.
 void put_in_place(const std::filesystem::path& unfinished, const std::filesystem::path& file, Durability);
 
+/// Returns the first of FILE.damaged-1, FILE.damaged-2, … that is free, under which a damaged file is kept.
+std::filesystem::path free_damaged_name(const std::filesystem::path& file);
+
 /// Waits until a file, or the names in a folder, are on the disk. Throws DiskError.
 void sync_path(const std::filesystem::path& path);
 

@@ -240,13 +240,6 @@ void settle_numbers(Remains& remains, const std::optional<Extent>& mark) {
 // Names a new journal that is complete, on the disk, and not in its place yet.
 fs::path ready_name(const fs::path& file) { return fs::path(file).concat(".salvaged"); }
 
-fs::path free_name(const fs::path& file) {
-  for (int number = 1;; ++number) {
-    fs::path name = fs::path(file).concat(".damaged-" + std::to_string(number));
-    if (!fs::exists(name)) return name;
-  }
-}
-
 void quarantine(const fs::path& file, const fs::path& kept) {
   std::error_code none;
   fs::remove(fs::path(file).concat("-shm"), none);
@@ -292,7 +285,7 @@ std::string damage_of(const fs::path& file) {
 
 void salvage_if_damaged(const fs::path& file) {
   const fs::path mended = fs::path(file).concat(".mended"), ready = ready_name(file);
-  const fs::path kept = free_name(file);
+  const fs::path kept = free_damaged_name(file);
   try {
     if (fs::exists(ready)) return put_ready_in_place(file, kept);  // it was stopped between the renames
     const std::string damage = damage_of(file);

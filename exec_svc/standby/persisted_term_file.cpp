@@ -5,6 +5,7 @@
 #include <system_error>
 
 #include "core/durable/durable_file.hpp"
+#include "exec_svc/journal/database_files.hpp"
 
 namespace roci::exec::standby {
 
@@ -19,13 +20,6 @@ namespace {
 // Exceeds the epochs in which a member may have led since its journal was last written.
 constexpr std::uint64_t kEpochsBeyondJournal = 100;
 
-fs::path free_name(const fs::path& file) {
-  for (int number = 1;; ++number) {
-    fs::path name = fs::path(file).concat(".damaged-" + std::to_string(number));
-    if (!fs::exists(name)) return name;
-  }
-}
-
 }  // namespace
 
 PersistedTerm PersistedTermFile::read() const {
@@ -38,7 +32,7 @@ PersistedTerm PersistedTermFile::read() const {
 }
 
 fs::path PersistedTermFile::begin_anew(const journal::Position& newest) {
-  const fs::path kept = free_name(file_);
+  const fs::path kept = journal::free_damaged_name(file_);
   insist([&] { fs::copy_file(file_, kept, fs::copy_options::overwrite_existing); });
   const PersistedTerm in_doubt{newest.epoch + kEpochsBeyondJournal, false, 0};
   insist([&] { write(in_doubt); });
