@@ -18,20 +18,32 @@ LeaseGrant CommanderLeases::ask(const LeaseAsk& ask, std::uint64_t newest_epoch,
     leases_.erase(ask.commander);
     return {};
   }
-  const bool is_new = !leases_.contains(ask.commander) && !newest_led_.contains(ask.commander);
-  if (is_new && std::max(leases_.size(), newest_led_.size()) >= kCommanders) {
-    std::erase_if(leases_, [now](const auto& lease) { return lease.second.until <= now; });
-    if (std::max(leases_.size(), newest_led_.size()) >= kCommanders) return {};
-  }
+  if (!makes_room(ask, now)) return {};
   const Moment term = std::clamp(ask.term, Moment{0}, kLongestTerm);
   leases_[ask.commander] = {{ask.member, ask.epoch, term, ask.said}, now + term};
-  if (ask.leads) newest_led_[ask.commander] = ask.epoch;
+  if (ask.leads) newest_led_[ask.commander] = {ask.epoch, now};
   return leases_[ask.commander].grant;
+}
+
+bool CommanderLeases::makes_room(const LeaseAsk& ask, Moment now) {
+  if (!leases_.contains(ask.commander) && leases_.size() >= kCommanders) {
+    std::erase_if(leases_, [now](const auto& lease) { return lease.second.until <= now; });
+    if (leases_.size() >= kCommanders) return false;
+  }
+  if (!ask.leads || newest_led_.contains(ask.commander) || newest_led_.size() < kCommanders) return true;
+  auto oldest = newest_led_.end();
+  for (auto each = newest_led_.begin(); each != newest_led_.end(); ++each)
+    if (grant(each->first, now).member.empty() &&
+        (oldest == newest_led_.end() || each->second.asked < oldest->second.asked))
+      oldest = each;
+  if (oldest == newest_led_.end()) return false;
+  newest_led_.erase(oldest);
+  return true;
 }
 
 std::uint64_t CommanderLeases::newest_led(const std::string& commander) const {
   const auto known = newest_led_.find(commander);
-  return known == newest_led_.end() ? 0 : known->second;
+  return known == newest_led_.end() ? 0 : known->second.epoch;
 }
 
 bool CommanderLeases::admits(const std::string& commander, std::uint64_t epoch, Moment now) {

@@ -39,7 +39,8 @@ class CommanderLeases {
 
   /// Bounds a lease beyond its newest renewal.
   static constexpr Moment kLongestTerm = std::chrono::seconds(60);
-  /// Bounds the commanders that have a lease; others get none.
+  /// Bounds the commanders that have a lease; others get none. As many are remembered that led: where one more asks, that
+  /// is forgotten which has asked least recently and holds no lease, so that invented names keep nobody out for good.
   static constexpr std::size_t kCommanders = 64;
 
   /// Takes a request in and returns who holds the lease now. `newest_epoch` is the newest in which the commander has
@@ -62,7 +63,7 @@ class CommanderLeases {
   void show(See&& see, Moment now) const {
     for (const auto& [commander, lease] : leases_)
       if (lease.until > now) see(commander, lease.grant.member, lease.grant.epoch, lease.until - now);
-    for (const auto& [commander, epoch] : newest_led_) see(commander, epoch);
+    for (const auto& [commander, led] : newest_led_) see(commander, led.epoch);
   }
 
  private:
@@ -70,8 +71,14 @@ class CommanderLeases {
     LeaseGrant grant;
     Moment until{0};
   };
-  std::map<std::string, Lease> leases_;
-  std::map<std::string, std::uint64_t> newest_led_;  // by commander
+  struct Led {
+    std::uint64_t epoch = 0;
+    Moment asked{0};  // the newest time
+  };
+  bool makes_room(const LeaseAsk& ask, Moment now);
+
+  std::map<std::string, Lease> leases_;    // by commander
+  std::map<std::string, Led> newest_led_;  // by commander
 };
 
 }  // namespace roci::services::owner

@@ -72,7 +72,8 @@ TEST(CommanderLeases, AreNotForAnEpochFarAhead) {
   EXPECT_EQ(leases.ask(forged, 0, 100s).member, "");
   EXPECT_EQ(leases.newest_led("exec_svc"), 0U);
   leases.ask(ask("first", 1, 10s), 0, 100s);
-  EXPECT_EQ(leases.ask(forged, 0, 101s), (LeaseGrant{"first", 1, 2s, 10s})) << "nor in the name of the holder";
+  EXPECT_EQ(leases.ask(forged, 0, 101s), (LeaseGrant{"first", 1, 2s, 10s}))
+      << "nor in the name of the holder";
   EXPECT_EQ(leases.ask(ask("first", 1000, 11s), 0, 101s).epoch, 1000U);
 }
 
@@ -87,6 +88,36 @@ TEST(CommanderLeases, HaveABoundOnTermsAndOnCommanders) {
   }
   EXPECT_EQ(leases.grant("999", 100s).member, "");
   EXPECT_EQ(leases.ask(greedy, 0, 200s).member, "first") << "those of before have run out";
+}
+
+// Where whoever leads first asks after a flood, it is nobody's commander otherwise.
+TEST(CommanderLeases, AreForOneThatNobodyKnowsWhenInventedLeadersHaveRunOut) {
+  CommanderLeases leases;
+  LeaseAsk invented = ask("forger", 1, 10s);
+  invented.leads = true;
+  for (int i = 0; i < 1000; ++i) {
+    invented.commander = std::to_string(i);
+    leases.ask(invented, 0, 100s);
+  }
+  EXPECT_EQ(leases.ask(ask("first", 1, 10s), 0, 101s).member, "") << "all of them hold leases";
+  EXPECT_EQ(leases.ask(ask("first", 1, 11s), 0, 103s).member, "first");
+}
+
+TEST(CommanderLeases, OfOneThatHoldsStillRememberThatItLed) {
+  CommanderLeases leases;
+  LeaseAsk leader = ask("second", 2, 10s);
+  leader.leads = true;
+  leader.term = 60s;
+  leases.ask(leader, 0, 100s);
+  LeaseAsk invented = ask("forger", 1, 10s);
+  invented.leads = true;
+  for (int i = 0; i < 1000; ++i) {
+    invented.commander = std::to_string(i);
+    leases.ask(invented, 0, 100s + i * 50ms);
+  }
+  EXPECT_EQ(leases.newest_led("exec_svc"), 2U);
+  EXPECT_EQ(leases.newest_led("999"), 1U) << "and those of before, whose leases are over, were forgotten";
+  EXPECT_EQ(leases.newest_led("0"), 0U);
 }
 
 }  // namespace
