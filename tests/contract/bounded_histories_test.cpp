@@ -23,16 +23,6 @@ namespace {
 
 constexpr std::size_t kMegabyte = std::size_t{1} << 20;
 
-// The most memory that a process has had, in bytes.
-std::size_t peak_memory(pid_t process) {
-  std::ifstream status("/proc/" + std::to_string(process) + "/status");
-  std::string word;
-  std::size_t kilobytes = 0;
-  while (status >> word)
-    if (word == "VmHWM:") status >> kilobytes;
-  return kilobytes * 1024;
-}
-
 // ROCI_FLOOD_KEYS: how many keys the flood has; ./check --full sends more.
 std::size_t flood_keys() {
   const char* given = std::getenv("ROCI_FLOOD_KEYS");

@@ -35,10 +35,13 @@ class Hostile : public testing::TestWithParam<const char*> {
  protected:
   // A goal of an honest writer, in a process of its own, still arrives.
   void expect_still_reading(ChildProcess& reader) {
+    expect_a_goal_to_arrive(reader);
+    EXPECT_EQ(reader.finish(), 0);
+  }
+  void expect_a_goal_to_arrive(ChildProcess& reader) {
     ChildProcess writer(peer_command(GetParam(), "goal-writer", domain_.id()), {"PEER_PARTITION=roci.team"});
     writer.send("write ground photo 1");
     EXPECT_TRUE(reader.wait_for("goal ground photo"));
-    EXPECT_EQ(reader.finish(), 0);
   }
 
   process::DomainClaim domain_;
@@ -208,6 +211,18 @@ TEST_P(Hostile, AFarewellAtTheEndOfALeaseEndsNoReader) {
     passer_by.leave();
   }
   expect_still_reading(reader);
+}
+
+TEST_P(Hostile, GapsTakeLittleMemoryOfAReader) {
+  ChildProcess reader(reader_command(GetParam(), domain_.id()));
+  ASSERT_TRUE(reader.wait_for("ready"));
+  const std::size_t before = peak_memory(reader.pid());
+  ChildProcess writers(hostile_command("gaps", domain_.id()));
+  ASSERT_TRUE(reader.wait_for("matched roci/goal"));
+  while (writers.lines().size() < 25) ASSERT_TRUE(writers.wait_for_more());
+  expect_a_goal_to_arrive(reader);
+  EXPECT_LT(peak_memory(reader.pid()) - before, std::size_t{250} << 20) << "gigabytes without a bound";
+  EXPECT_EQ(reader.finish(), 0);
 }
 
 INSTANTIATE_TEST_SUITE_P(Vendors, Hostile, testing::Values("fastdds", "cyclonedds"),

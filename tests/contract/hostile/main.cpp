@@ -2,6 +2,7 @@
 // its input ends.
 //   writers            on loopback, a writer on every topic, all of whose samples are malformed, again and again
 //   goals ADDRESS ID   a writer on roci/goal that writes the goal stranger/ID well-formed to the host with that address
+//   gaps               on loopback, two writers on roci/goal, whose GAPs skip 2^18 numbers each, always further ones
 //   inject SEED COUNT  on loopback, mutants of the traffic that it hears and forged datagrams, COUNT at least
 // Standard output, one line each: ready | round N (all was sent N times) | sent COUNT SEED.
 #include <poll.h>
@@ -95,12 +96,35 @@ void write_goals(std::uint32_t target, int domain, const std::string& id) {
   }
 }
 
+// A reader of Fast DDS keeps each of these numbers, since it still waits for the first one.
+void skip_numbers(int domain) {
+  constexpr std::int64_t kAtOnce = std::int64_t{1} << 18;
+  constexpr int kGapsOfRound = 5;
+  Participant first(kLoopback, domain, kEprosima, 1, transport::own_announcement());
+  Participant second(kLoopback, domain, kEclipse, 2, transport::own_announcement());
+  std::int64_t next = 2;
+  for (int round = 0; wait_a_moment(); ++round) {
+    for (Participant* participant : {&first, &second}) {
+      if (round == 0)
+        participant->add_writer({topics::goal.name, topics::goal.type_name, true,
+                                 transport::partitions_of(topics::goal.scope, "")});
+      participant->announce();
+      for (int i = 0; i < kGapsOfRound; ++i)
+        participant->send_to_readers(participant->message().gap(0, writer_id(0, true), next + i * kAtOnce,
+                                                                next + (i + 1) * kAtOnce, 0));
+    }
+    next += kGapsOfRound * kAtOnce;
+    say("round " + std::to_string(round));
+  }
+}
+
 void run(const std::vector<std::string>& words) {
   if (words.size() < 2)
     throw std::invalid_argument("usage: contract-hostile ROLE DOMAIN [ADDRESS ID | SEED COUNT]");
   const int domain = std::stoi(words[1]);
   say("ready");
   if (words[0] == "writers") return Attackers(kLoopback, domain).run();
+  if (words[0] == "gaps") return skip_numbers(domain);
   if (words.size() != 4) throw std::invalid_argument("unknown role " + words[0]);
   if (words[0] == "goals") return write_goals(address_of(words[2]), domain, words[3]);
   if (words[0] != "inject") throw std::invalid_argument("unknown role " + words[0]);

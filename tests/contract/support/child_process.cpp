@@ -10,6 +10,8 @@
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
+#include <fstream>
+#include <string>
 #include <system_error>
 #include <utility>
 
@@ -101,6 +103,15 @@ int ChildProcess::finish() {
 void ChildProcess::kill() {
   if (pid_ > 0) ::kill(pid_, SIGKILL);
   finish();
+}
+
+std::size_t peak_memory(pid_t process) {
+  std::ifstream status("/proc/" + std::to_string(process) + "/status");
+  std::string word;
+  std::size_t kilobytes = 0;
+  while (status >> word)
+    if (word == "VmHWM:") status >> kilobytes;
+  return kilobytes * 1024;
 }
 
 }  // namespace roci::services::contract

@@ -41,4 +41,7 @@ class ChildProcess {
   std::vector<std::string> lines_;
 };
 
+/// The most memory that a process has had, in bytes.
+std::size_t peak_memory(pid_t process);
+
 }  // namespace roci::services::contract
