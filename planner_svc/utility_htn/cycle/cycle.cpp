@@ -104,7 +104,7 @@ Report Cycle::run(Time now) {
   for (Block& one : blocks_)
     if (one.failed()) abandon(one, "", report);
   believe_reports(now);
-  fit_downlinks();
+  fit_downlinks(now);
   does(Activity::commit, commit(now));
   if (consolidate(now)) report.done.push_back(Activity::consolidate);  // the plan is the same
   forget_over(report);
@@ -211,21 +211,39 @@ Time Cycle::room_until(const Link& of, Time wanted) const {
   return out;
 }
 
-// Data that turned out larger or smaller than foreseen make planned downlinks longer or shorter (R127); what would last
-// longer than there is room goes with a later one.
-void Cycle::fit_downlinks() {
+// Returns whether a downlink that is not committed now, and that nothing fixed cuts short, has a place later where it
+// may last as long as this.
+bool Cycle::lasts_later(const Block& of, std::size_t link, Duration takes, Time now) {
+  const Link& each = of.links[link];
+  if (each.start < now + network_.cycle.commit_window) return false;
+  if (each.start + takes > free_until(network_, blocks_, each)) return false;
+  const std::size_t mark = timelines_.mark();
+  timelines_.remove(task_id(of.number, link));
+  temporal::timelines::Footprint seen = footprint(of, link);
+  seen.duration = takes;
+  const Duration gap = chains_.chains[of.chain].links[link].longest_gap;
+  const Time latest = link == 0 ? temporal::no_bound : temporal::plus(of.links[link - 1].end, gap);
+  const std::optional<Placement> later = soonest(of, link, seen, {each.start, latest});
+  timelines_.undo(mark);
+  return later && later->length >= takes;
+}
+
+// Data that turned out larger or smaller than foreseen make planned downlinks longer or shorter (R127). One that would
+// outlast its view of Earth is moved by repair if all of it has room in a later one; else what does not go with it waits
+// for another downlink.
+void Cycle::fit_downlinks(Time now) {
   if (delivery_ == nullptr) return;
   sessions_.look(blocks_, *delivery_);
   for (Block& one : blocks_)
     for (std::size_t i = 0; i < one.links.size(); ++i) {
       Link& each = one.links[i];
       if (each.stage != Stage::planned || !one.begun() || one.failed()) continue;
-      const Duration now = each.end - each.start;
       if (!network_.tasks[each.task].downlinks) continue;
       Duration takes = length(one, i);
-      if (const Duration room = room_until(each, each.start + takes) - each.start; takes > room)
+      const Duration room = room_until(each, each.start + takes) - each.start;
+      if (takes > room && !lasts_later(one, i, takes, now))
         takes = sessions_.length(blocks_, one, i, *delivery_, past_.values, room);
-      if (takes == now) continue;
+      if (takes == each.end - each.start) continue;
       each.end = each.start + takes;
       timelines_.move(task_id(one.number, i), each.start, each.end);
       to_optimize_ = true;

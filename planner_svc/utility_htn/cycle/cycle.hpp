@@ -173,8 +173,9 @@ class Cycle {
   temporal::timelines::Footprint footprint(const Block& block, std::size_t link) const;
   temporal::Duration duration(model::TaskIndex task) const;
   temporal::Duration length(const Block& block, std::size_t link) const;
-  void fit_downlinks();
+  void fit_downlinks(temporal::Time now);
   temporal::Time room_until(const Link& of, temporal::Time wanted) const;
+  bool lasts_later(const Block& of, std::size_t link, temporal::Duration takes, temporal::Time now);
   struct Placement {
     temporal::Time start{0};
     temporal::Duration length{0};

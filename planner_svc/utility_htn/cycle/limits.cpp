@@ -149,7 +149,7 @@ bool Cycle::keep_limits(Time now, Report& report) {
   const auto overdrawn = [&] { return delivery_->overdrawn_sols(data().downlinks, past_.values); };
   if (overdrawn().empty()) return false;
   const std::vector<Block> before = blocks_;
-  fit_downlinks();
+  fit_downlinks(now);
   std::set<std::uint32_t> tried;
   for (auto sols = overdrawn(); !sols.empty(); sols = overdrawn())
     if (!make_way(sols, tried, now + network_.cycle.commit_window, report)) break;

@@ -37,18 +37,22 @@ class LongSessions : public DeliveryTest {
     delivery_->hear(trench);
     cycle_->doubt();
   }
+  // `sample` is sent while Earth is in view.
   void earth_sets_at(Time end) {
-    const auto earth = static_cast<temporal::timelines::Index>(network_.timelines.size());
+    earth_ = static_cast<temporal::timelines::Index>(network_.timelines.size());
     network_.timelines.push_back({"earth", temporal::timelines::Kind::state, {"set", "risen"}});
-    model::Task& view = network_.tasks.emplace_back();
-    view.id = view.name = "earth_view";
-    view.fixed = true;
-    view.preferred_start = 30s;
-    view.duration = {temporal::to_seconds(end) - 30};
-    view.impacts = {{earth, temporal::ImpactKind::assign, temporal::ImpactWhen::at_start, {1}},
-                    {earth, temporal::ImpactKind::assign, temporal::ImpactWhen::at_end, {0}}};
+    see_earth("earth_view", 30s, end);
     task("send_sample").constraints = {
-        {.timeline = earth, .phase = temporal::timelines::Phase::maintenance, .states = 2}};
+        {.timeline = earth_, .phase = temporal::timelines::Phase::maintenance, .states = 2}};
+  }
+  void see_earth(const std::string& name, Time start, Time end) {
+    model::Task& view = network_.tasks.emplace_back();
+    view.id = view.name = name;
+    view.fixed = true;
+    view.preferred_start = start;
+    view.duration = {temporal::to_seconds(end - start)};
+    view.impacts = {{earth_, temporal::ImpactKind::assign, temporal::ImpactWhen::at_start, {1}},
+                    {earth_, temporal::ImpactKind::assign, temporal::ImpactWhen::at_end, {0}}};
   }
   // Digging and imaging take the time of the network, so that sending comes at 180 s.
   void image_until_now() {
@@ -69,6 +73,14 @@ class LongSessions : public DeliveryTest {
         return one.links.back().end - one.links.back().start;
     throw std::logic_error("no sample is planned");
   }
+  Time sent_at() const {
+    for (const cycle::Block& one : cycle_->blocks())
+      if (chains_.chains[one.chain].task == task_named(network_, "sample")) return one.links.back().start;
+    throw std::logic_error("no sample is planned");
+  }
+
+ private:
+  temporal::timelines::Index earth_ = 0;
 };
 
 TEST_F(LongSessions, EndBeforeSomethingFixedThatNeedsTheSame) {
@@ -115,6 +127,32 @@ TEST_F(LongSessions, AreNotCommittedBeyondTheView) {
   cycle_->run(151s);
   EXPECT_EQ(session(), 20s);
   EXPECT_THAT(cycle_->timelines().conflicts(151s, temporal::no_bound), IsEmpty());
+}
+
+TEST_F(LongSessions, AreInALaterViewThatLastsForAllOfThem) {
+  earth_sets_at(230s);
+  see_earth("later_view", 300s, 360s);
+  begin();
+  image_until_now();
+  cycle_->run(140s);
+  ASSERT_EQ(sent_at(), 180s);
+  wait_for_it(600);
+  cycle_->run(145s);
+  EXPECT_EQ(session(), 60s);
+  EXPECT_EQ(sent_at(), 300s);
+  EXPECT_THAT(cycle_->timelines().conflicts(145s, temporal::no_bound), IsEmpty());
+}
+
+// A chain whose data go with no view is not broken off.
+TEST_F(LongSessions, StayWhereNoViewLastsForAllOfThem) {
+  earth_sets_at(230s);
+  see_earth("later_view", 300s, 355s);
+  begin();
+  image_until_now();
+  wait_for_it(600);
+  cycle_->run(145s);
+  EXPECT_EQ(session(), 20s);
+  EXPECT_EQ(sent_at(), 180s);
 }
 
 TEST_F(LongSessions, AreNoLongerThanTheLimitOfADownlinkPermits) {
