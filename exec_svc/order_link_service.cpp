@@ -84,7 +84,7 @@ void OrderLink::tell(const Reactor& reactor) const {
 }
 
 void OrderLink::tell_concluded(const Reactor& reactor) const {
-  for (const auto& [timeline, value] : reactor.concluded()) tell(Observation{timeline, value});
+  for (const auto& [timeline, value] : reactor.told_conclusions()) tell(Observation{timeline, value});
 }
 
 void OrderLink::tell_orders(const Reactor& reactor) const {

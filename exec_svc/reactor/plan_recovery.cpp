@@ -136,7 +136,7 @@ void PlanRecovery::count_break(Time now, const std::string& activity, const std:
 }
 
 void PlanRecovery::note_trust(const std::string& subsystem, bool lost) {
-  const std::string timeline = "trust." + subsystem;
+  const std::string timeline = std::string(kTrust) + subsystem;
   const auto value = lost ? std::optional<temporal::Value>(temporal::state("lost")) : std::nullopt;
   if (state_->beliefs.conclude(timeline, value))
     state_->out.concluded.push_back({timeline, value.value_or(temporal::Value{})});

@@ -8,6 +8,7 @@
 #include "exec_svc/reactor/inputs.hpp"
 #include "exec_svc/reactor/lost_components.hpp"
 #include "exec_svc/reactor/message_fields.hpp"
+#include "exec_svc/reactor/plan_recovery.hpp"
 #include "exec_svc/reactor/replanning_policy.hpp"
 
 namespace roci::exec::reactor {
@@ -235,6 +236,13 @@ const std::map<std::string, temporal::Value>& Reactor::observed() const {
 
 const std::map<std::string, temporal::Value>& Reactor::concluded() const {
   return parts_->state.beliefs.concluded();
+}
+
+std::map<std::string, temporal::Value> Reactor::told_conclusions() const {
+  std::map<std::string, temporal::Value> out = concluded();
+  if (parts_->state.mission->executive.plans_continuously())
+    std::erase_if(out, [](const auto& one) { return !one.first.starts_with(kTrust); });
+  return out;
 }
 
 mission::AutonomyLevel Reactor::autonomy() const { return parts_->state.authority.level(); }

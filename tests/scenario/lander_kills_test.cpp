@@ -70,6 +70,19 @@ TEST_P(LanderKills, AnExecutiveThatDiesGoesOnWithThePlanOfTheEngine) {
   }
 }
 
+// Two trenches, of which nobody but the planner knows what became: the farewell waits for one. The executive dies when
+// it is open, and tells nothing of it that is no longer so.
+TEST_P(LanderKills, AnExecutiveThatDiesTakesBackNothingThatTasksHaveMade) {
+  fs::remove_all(mission_);
+  fs::copy(ROCI_SOURCE_DIR "/tests/missions/lander", mission_, fs::copy_options::recursive);
+  const fs::path network = mission_ / "network.yaml";
+  edit(network, "of: \"{site}\"", "of: \"picture_{site}\"");
+  edit(network, "window_s: [7200, none]", "window_s: [7200, none]\n    pre: \"trench_near = open\"");
+  const Ended ended = fly_killing("exec_svc", "picture_near", mission_);
+  EXPECT_THAT(ended.output, StartsWith("killed "));
+  EXPECT_EQ(last_line_as_json(ended.output).value("result", ""), "achieved") << ended.output;
+}
+
 // A lander whose digging holds the next one until the ground lets it go. The executive dies between the hold and the
 // ground's second word: what it tells of the first one, when it is there again, releases nothing.
 TEST_P(LanderKills, AnExecutiveThatDiesKeepsAHoldThatCameAfterTheGroundsWord) {

@@ -85,7 +85,10 @@ void Cycle::resume(const Past& past, std::vector<Block> blocks, std::uint32_t la
   last_block_ = last_block;
   timelines_ = temporal::timelines::Timelines(network_.timelines, lines_from(since));
   for (Index i = 0; i < network_.timelines.size(); ++i)
-    if (network_.timelines[i].is_remembered()) timelines_.observe(i, since, past_.internal[i]);
+    if (network_.timelines[i].is_remembered()) {
+      timelines_.observe(i, since, past_.internal[i]);
+      observations_.note(i, since, past_.internal[i]);
+    }
   blocks_ = std::move(blocks);
   for (const Block& one : blocks_) put_in(one);
   to_schedule_ = to_optimize_ = true;

@@ -173,6 +173,7 @@ class Cycle {
   temporal::timelines::Footprint footprint(const Block& block, std::size_t link) const;
   temporal::Duration duration(model::TaskIndex task) const;
   temporal::Duration length(const Block& block, std::size_t link) const;
+  void note_made(const model::Task& by, temporal::ImpactWhen when, temporal::Time at);
   void fit_downlinks(temporal::Time now);
   temporal::Time room_until(const Link& of, temporal::Time wanted) const;
   bool lasts_later(const Block& of, std::size_t link, temporal::Duration takes, temporal::Time now);

@@ -27,12 +27,21 @@ void Cycle::observe(Index timeline, Time sampled, double value) {
   to_optimize_ |= observations_.take(timeline, sampled, value, foreseen);
 }
 
+// What a task makes of a timeline that nobody reports counts more than what the ground said before.
+void Cycle::note_made(const model::Task& by, temporal::ImpactWhen when, Time at) {
+  for (const model::Impact& impact : by.impacts)
+    if (impact.moment == when && impact.kind == temporal::ImpactKind::assign &&
+        network_.timelines[impact.timeline].is_remembered())
+      observations_.note(impact.timeline, at, model::evaluate(impact.amount, past_.values));
+}
+
 void Cycle::begun(TaskId task, Time at) {
   Link* const one = link(task);
   if (one == nullptr || !waits(*one)) return;
   to_optimize_ |= one->start != at;
   *one = {one->task, one->planned, at, at + length(*block(block_of(task)), link_of(task)), Stage::running};
   timelines_.move(task, at, one->end);
+  note_made(network_.tasks[one->task], temporal::ImpactWhen::at_start, at);
 }
 
 void Cycle::tried_again(TaskId task, Time at) {
@@ -54,6 +63,7 @@ void Cycle::ended(TaskId task, Time at, bool succeeded, const std::string& cause
   one->stage = succeeded ? Stage::succeeded : Stage::failed;
   if (succeeded && placed) timelines_.move(task, one->start, at);
   if (succeeded) observations_.await(network_.tasks[one->task], at);
+  if (succeeded) note_made(network_.tasks[one->task], temporal::ImpactWhen::at_end, at);
   if (succeeded || !placed) return;
   timelines_.remove(task);  // what failed has no effect; what it has cost is observed
   doom(task);

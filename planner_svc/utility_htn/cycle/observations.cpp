@@ -12,13 +12,17 @@ Observations::Observations(const model::Network& network, double noticeable)
     : network_(network), noticeable_(noticeable), deviation_(network.timelines.size(), 0.0) {}
 
 bool Observations::take(Index timeline, Time sampled, double value, double foreseen) {
-  const auto [known, first_one] = newest_.try_emplace(timeline, Sample{sampled, value});
-  if (!first_one && known->second.sampled <= sampled) known->second = {sampled, value};
+  note(timeline, sampled, value);
   const auto& definition = network_.timelines[timeline];
   if (definition.kind == temporal::timelines::Kind::state) return foreseen != value;
   deviation_[timeline] += std::abs(value - foreseen);
   const double first = std::max(std::abs(definition.initial), 1e-9);
   return deviation_[timeline] > noticeable_ * first;
+}
+
+void Observations::note(Index timeline, Time at, double value) {
+  const auto [known, first_one] = newest_.try_emplace(timeline, Sample{at, value});
+  if (!first_one && known->second.sampled <= at) known->second = {at, value};
 }
 
 void Observations::forget_deviations() { std::ranges::fill(deviation_, 0.0); }

@@ -24,6 +24,9 @@ class Observations {
   bool take(temporal::timelines::Index timeline, temporal::Time sampled, double value, double foreseen);
   void forget_deviations();
 
+  /// Takes what tasks had made then of a timeline that nobody reports: no older word of the ground counts any more.
+  void note(temporal::timelines::Index timeline, temporal::Time at, double value);
+
   /// Takes that a task with a command ended then, so that the states which it was to bring about should be observed.
   void await(const model::Task& ended, temporal::Time at);
   void await_nothing() { awaited_.clear(); }

@@ -405,6 +405,26 @@ TEST_F(CycleTest, AReportThatIsHeardAfterItsCycleCountsUnlessANewerOneIsKnown) {
   EXPECT_EQ(cycle.timelines().value(testing::kHealth, 20s), 1);
 }
 
+// An executive that was started again tells what the ground had said before tasks moved the timeline.
+TEST_F(CycleTest, AnOldWordOfTheGroundChangesNothingThatATaskHasMadeSince) {
+  Cycle cycle = make();
+  const Block first = sample_in(cycle);
+  const Time end = first.links.front().end;
+  cycle.begun(task_id(first.number, 0), first.links.front().start);
+  cycle.ended(task_id(first.number, 0), end, true);
+  cycle.run(end + 10s);
+  cycle.observe(testing::kSite, Time{0}, 0);
+  EXPECT_EQ(cycle.timelines().value(testing::kSite, end + 10s), 1);
+
+  Cycle again = make();
+  again.resume(cycle.past(), cycle.blocks(), cycle.last_block(), end + 10s);
+  again.run(end + 20s);
+  again.observe(testing::kSite, end + 5s, 0);
+  EXPECT_EQ(again.timelines().value(testing::kSite, end + 20s), 1) << "nor after the planner was";
+  again.observe(testing::kSite, end + 15s, 0);
+  EXPECT_EQ(again.timelines().value(testing::kSite, end + 20s), 0) << "a later one does";
+}
+
 // A view of Earth does not end with the battery; a plan without it would take what is in view for what stays so.
 TEST_F(CycleTest, WhatComesFromOutsideOutlastsTheEarlyEnd) {
   model::Task sky;
