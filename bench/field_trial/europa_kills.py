@@ -61,13 +61,19 @@ def fly_killing(bin_folder: Path, mission: Path, scenario: Scenario, folder: Pat
     out.goals_lost = goals_lost(folder)
     out.products_lost = products_lost(flight, calm)
     out.faults += flight.faults + (["the goal is lost"] if out.goals_lost else [])
-    out.faults += [f"{name} is lost" for name in out.products_lost]
+    out.faults += [f"{name} is lost" for name in out.products_lost] + samples_missing(flight, calm)
     return out
 
 
 def goals_lost(folder: Path) -> int:
     with sqlite3.connect(f"file:{folder / 'journal.sqlite'}?mode=ro", uri=True) as database:
         return int(not list(database.execute("SELECT id FROM goal WHERE id = 'mission'")))
+
+
+def samples_missing(flight: Flight, calm: Flight) -> list[str]:
+    """A kill costs minutes, which may decide about one sample at the end; not about more."""
+    missing = calm.samples_home - flight.samples_home
+    return [f"{flight.samples_home} samples are home, {calm.samples_home} without the kills"] if missing > 1 else []
 
 
 def products_lost(flight: Flight, calm: Flight) -> list[str]:

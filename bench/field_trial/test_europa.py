@@ -7,9 +7,10 @@ import sqlite3
 import tempfile
 import unittest
 from pathlib import Path
+from types import SimpleNamespace
 
 import europa_flights as flights
-from europa_kills import draw_kills, products_lost
+from europa_kills import draw_kills, products_lost, samples_missing
 from europa_knowing import DURATIONS, POWERS_W, knowing, too_hard
 from europa_scenarios import RATE_BYTE_S, SHOCKS_J, UNCERTAINTIES, Scenario, draw
 
@@ -196,6 +197,12 @@ class Utility(unittest.TestCase):
         calm.product("workspace", "decisional", "received")
         killed.product("workspace", "decisional", "stored")
         self.assertEqual(products_lost(killed.flight(), calm.flight()), ["workspace"])
+
+    def test_samples_that_a_kill_cost(self):
+        def home(samples):
+            return SimpleNamespace(samples_home=samples)
+        self.assertEqual(samples_missing(home(4), home(5)), [])
+        self.assertEqual(samples_missing(home(2), home(5)), ["2 samples are home, 5 without the kills"])
 
 
 class Knowing(unittest.TestCase):
