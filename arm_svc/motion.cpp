@@ -14,7 +14,6 @@ namespace {
 
 using kinematics::Arm;
 using kinematics::CollisionShape;
-using kinematics::JointVector;
 
 constexpr double kLongestMotion = 10'000;  // s; a reply has ten samples for each
 

@@ -6,8 +6,6 @@
 namespace roci::arm {
 namespace {
 
-using kinematics::JointVector;
-
 constexpr int kTrials = 60;
 constexpr double kLeastStep = 1.1, kLargestStep = 2.0;
 

@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # Installs what is missing (Debian 12 packages) and builds. Called by ./run and ./check:
 #   cmake/setup.sh [--yes] PRESET [TARGET ...]
-# Asks before it uses sudo, unless --yes is given or ROCI_YES is set. With ROCI_GEOTIFF=1 sites may be GeoTIFFs (GDAL). Exits 0 when build/PRESET is up to date, 3 when a package
-# is missing and cannot be installed.
+# Asks before it uses sudo, unless --yes is given or ROCI_YES is set. With ROCI_GEOTIFF=1 sites may be GeoTIFFs (GDAL),
+# with ROCI_TIDY=1 clang-tidy is installed, too. Exits 0 when build/PRESET is up to date, 3 when a package is missing
+# and cannot be installed.
 set -euo pipefail
 root=$(cd "$(dirname "$0")/.." && pwd)
 yes=${ROCI_YES:-}
@@ -32,6 +33,9 @@ settings=()
 if [[ ${ROCI_GEOTIFF:-0} != 0 ]]; then
   packages+=(libgdal-dev)
   settings+=(-DROCI_GEOTIFF=ON)
+fi
+if [[ ${ROCI_TIDY:-0} != 0 ]]; then
+  packages+=(clang-tidy-19)
 fi
 
 missing=()

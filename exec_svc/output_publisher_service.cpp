@@ -12,7 +12,6 @@
 namespace roci::exec {
 
 using executive::Command;
-using executive::CommandAction;
 using executive::StepStatus;
 using goals::GoalRecord;
 using journal::CrashPoints;

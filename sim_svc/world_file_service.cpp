@@ -17,7 +17,6 @@ namespace roci::sim {
 using nlohmann::json;
 using temporal::Time;
 using world::Image;
-using world::Memory;
 using world::Pose;
 using world::Product;
 using world::RobotMemory;

@@ -10,7 +10,7 @@ namespace roci::bench::europa {
 
 namespace model = planner::utility_htn::model;
 using planner::utility_htn::flattening::Chain, planner::utility_htn::flattening::Chains;
-using temporal::timelines::Constraint, temporal::timelines::Index, temporal::timelines::Kind;
+using temporal::timelines::Constraint, temporal::timelines::Kind;
 
 namespace {
 

@@ -33,9 +33,13 @@ void fields(A& a, Of<temporal::TemporalConstraint, A>& v) {
 }
 template <class A>
 void fields(A& a, Of<temporal::RankVector, A>& v) {
-  std::vector<double> scores = v.scores();
-  a(scores);
-  if constexpr (!A::writes) v = temporal::RankVector(std::move(scores));
+  if constexpr (A::writes) {
+    a(v.scores());
+  } else {
+    std::vector<double> scores;
+    a(scores);
+    v = temporal::RankVector(std::move(scores));
+  }
 }
 template <class A>
 void fields(A& a, Of<temporal::PlanCommand, A>& v) {

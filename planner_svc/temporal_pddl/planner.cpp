@@ -32,7 +32,7 @@ namespace roci::planner::temporal_pddl {
 using call::Budget, call::Monitor, call::NamedGoal, call::Options, call::PlanningFailure, call::SearchLimits,
     call::Statistics;
 using dead_ends::DeadEndDetectors, dead_ends::MutexDeadEnds, dead_ends::ResourceDeadEnds;
-using engine::FunctionSource, engine::FunctionsMode, engine::FunctionUse;
+using engine::FunctionSource, engine::FunctionsMode;
 using extraction::build_plan;
 using grounding::Grounding, grounding::GroundingReport, grounding::ground, grounding::ground_remaining_plan;
 using grounding::lifted::ModelFailure;

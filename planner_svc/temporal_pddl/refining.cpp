@@ -8,11 +8,11 @@
 
 namespace roci::planner::temporal_pddl {
 
-using call::Budget, call::Options, call::Statistics;
+using call::Statistics;
 using engine::FunctionCall, engine::FunctionsMode;
 using extraction::Activity, extraction::Plan;
 using temporal::Verdict;
-using values::ActionInstance, values::ActionTuples, values::Refined, values::ValueTable;
+using values::ActionInstance, values::ActionTuples, values::ValueTable;
 
 namespace {
 

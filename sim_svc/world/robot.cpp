@@ -6,7 +6,6 @@
 
 namespace roci::sim::world {
 
-using temporal::seconds;
 using temporal::Time;
 using temporal::to_seconds;
 

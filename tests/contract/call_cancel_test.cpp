@@ -13,7 +13,6 @@ namespace {
 using namespace std::chrono_literals;
 using namespace testing;
 using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 
 class CallCancel : public ::testing::TestWithParam<std::pair<const char*, RoadVendors>> {};
 

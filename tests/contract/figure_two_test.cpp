@@ -17,7 +17,6 @@ namespace {
 
 using namespace std::chrono_literals;
 using namespace testing;
-using ::testing::HasSubstr;
 namespace topics = services::topics;
 
 // Stellar, figure 2, in a domain that uses it; its lines 4 to 7 are the paper's.

@@ -17,8 +17,6 @@ namespace roci::services::contract {
 namespace {
 
 using testing::ElementsAre;
-using testing::IsEmpty;
-using testing::UnorderedElementsAre;
 
 class Instances : public PairingTest {};
 

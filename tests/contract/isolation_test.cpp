@@ -11,7 +11,6 @@
 namespace roci::services::contract {
 namespace {
 
-using testing::Contains;
 using testing::ElementsAre;
 using testing::UnorderedElementsAre;
 

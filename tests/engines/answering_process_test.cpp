@@ -14,10 +14,7 @@ namespace topics = services::topics;
 using namespace std::chrono_literals;
 using services::rpc::CallStatus;
 using temporal::Time;
-using ::testing::AllOf;
-using ::testing::Contains;
 using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
 using Values = std::vector<Held>;

@@ -10,7 +10,6 @@
 namespace roci::planner::proof {
 namespace {
 
-using engine::CheckedPlan;
 using temporal::FlexiblePlan;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;

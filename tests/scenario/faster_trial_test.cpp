@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 namespace topics = services::topics;
-using ::testing::AllOf, ::testing::AnyOf, ::testing::Contains, ::testing::ElementsAre, ::testing::HasSubstr;
+using ::testing::AnyOf, ::testing::Contains, ::testing::ElementsAre, ::testing::HasSubstr;
 
 // One line for each sample in the order in which they were said, with its mission time.
 struct Said {

@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
-using ::testing::ElementsAre, ::testing::HasSubstr, ::testing::IsSupersetOf;
+using ::testing::ElementsAre, ::testing::HasSubstr;
 
 class RoversViews : public ::testing::TestWithParam<const char*> {
  protected:

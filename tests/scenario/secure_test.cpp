@@ -15,7 +15,6 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
-using ::testing::Not;
 
 const std::string kMission = std::string(ROCI_SOURCE_DIR) + "/missions/planetary";
 

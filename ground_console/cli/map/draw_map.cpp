@@ -10,8 +10,6 @@
 namespace roci::console::cli::map {
 namespace {
 
-using terrain::Point;
-
 constexpr double kMargin = 28, kTitle = 58, kAxis = 52, kLegend = 250, kLetter = 2;
 
 bool has_unknown(const terrain::Site& site) {

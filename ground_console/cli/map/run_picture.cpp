@@ -14,7 +14,7 @@
 namespace roci::console::cli::map {
 namespace {
 
-using outlook::Ink, outlook::Letters, outlook::Svg;
+using outlook::Svg;
 
 constexpr double kWidth = 1200, kEdge = 24, kHead = 64, kGap = 28;
 constexpr double kLabel = 210, kBar = 20, kRowStep = 24, kTimes = 30;

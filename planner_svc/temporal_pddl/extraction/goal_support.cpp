@@ -11,8 +11,8 @@ namespace roci::planner::temporal_pddl::extraction {
 
 using call::NamedGoal;
 using search::PlanPrefix;
-using task::ActionId, task::FactId, task::LinearExpression, task::NumberId, task::NumericCondition,
-    task::NumericEffect, task::Semantics, task::SnapId, task::SnapKind, task::Task, task::Word;
+using task::FactId, task::LinearExpression, task::NumericCondition, task::NumericEffect, task::Semantics,
+    task::SnapId, task::SnapKind, task::Task, task::Word;
 
 namespace {
 

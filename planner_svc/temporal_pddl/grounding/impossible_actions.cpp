@@ -14,7 +14,7 @@ namespace roci::planner::temporal_pddl::grounding {
 using constraints::Orderings, constraints::StepConstraint;
 using instantiation::GroundAction, instantiation::GroundLiteral, instantiation::GroundModel,
     instantiation::ImpossibleAction;
-using task::Action, task::ActionId, task::SnapId, task::Task;
+using task::Action, task::ActionId, task::Task;
 using temporal::Duration;
 
 namespace {

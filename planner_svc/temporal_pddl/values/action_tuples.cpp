@@ -13,7 +13,6 @@ using grounding::lifted::Binding, grounding::lifted::LiftedAction, grounding::li
     grounding::lifted::LiftedExpression, grounding::lifted::LiftedFormula, grounding::lifted::Symbols,
     grounding::lifted::for_each_value, grounding::lifted::lower_actions, grounding::lifted::lower_goal,
     grounding::lifted::lower_metric, grounding::lifted::resolve;
-using task::ObjectId;
 
 namespace {
 

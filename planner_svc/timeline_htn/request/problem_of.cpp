@@ -10,7 +10,7 @@
 namespace roci::planner::timeline_htn::request {
 
 using engine::Request;
-using model::GroundState, model::Index, model::Model, model::Pattern, model::StateKind, model::Term;
+using model::Index, model::Model, model::Pattern;
 using temporal::ConditionOp, temporal::Duration;
 
 namespace {

@@ -15,7 +15,7 @@ namespace roci::planner::utility_htn::search {
 using flattening::Chain;
 using model::Subtask, model::TaskIndex;
 using temporal::RankVector;
-using temporal::timelines::Constraint, temporal::timelines::Index, temporal::timelines::Kind;
+using temporal::timelines::Constraint, temporal::timelines::Index;
 
 namespace {
 

@@ -31,7 +31,6 @@ using exec::journal::JournaledReactor;
 using exec::journal::JournalError;
 using exec::reactor::Reactor;
 using exec::reactor::ReactorInputs;
-using temporal::state;
 
 exec::goals::GoalRequest photo(const std::string& id) {
   exec::goals::GoalRequest goal;

@@ -17,7 +17,7 @@ namespace roci::fuzz {
 namespace {
 
 namespace fs = std::filesystem;
-using planner::KeptNetworks, planner::NetworkRecord, planner::NetworkStage, planner::NetworkStore;
+using planner::KeptNetworks, planner::NetworkStage, planner::NetworkStore;
 
 class FuzzNetworkStore : public testing::Test {
  protected:

@@ -6,7 +6,6 @@
 namespace roci::scenario {
 
 using temporal::ConstraintKind;
-using temporal::FlexiblePlan;
 using temporal::PlanActivity;
 
 ScriptedEngine::ScriptedEngine(services::Node& node)

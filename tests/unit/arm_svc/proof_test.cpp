@@ -13,7 +13,6 @@
 namespace roci::arm {
 namespace {
 
-using kinematics::JointVector;
 using test::coordinates;
 using testing::HasSubstr;
 

@@ -17,7 +17,6 @@ namespace {
 
 using namespace std::chrono_literals;
 using planner::utility_htn::model::Network, planner::utility_htn::model::Task;
-using ::testing::DoubleNear, ::testing::ElementsAre;
 
 const Network& base_domain() {
   static const Network network = planner::utility_htn::reading::load_network(

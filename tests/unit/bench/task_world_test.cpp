@@ -1,5 +1,7 @@
 #include "bench/europa/task_world.hpp"
 
+#include <gtest/gtest.h>
+
 #include <cmath>
 
 namespace roci::bench::europa {

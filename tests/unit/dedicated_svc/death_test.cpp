@@ -17,11 +17,8 @@ namespace roci::dedicated {
 namespace {
 
 using namespace std::chrono_literals;
-using testing::AllOf;
 using testing::Contains;
 using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::Not;
 namespace topics = services::topics;
 
 constexpr char kTwoMethods[] = R"(

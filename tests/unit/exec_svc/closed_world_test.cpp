@@ -15,7 +15,6 @@ namespace roci::exec::problem {
 namespace {
 
 using temporal::Truth;
-using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
 // One text for each i: before, i, after.

@@ -21,7 +21,6 @@ using temporal::FlexiblePlan;
 using temporal::ImpactKind;
 using temporal::ImpactWhen;
 using ::testing::Contains;
-using ::testing::HasSubstr;
 using ::testing::Not;
 
 temporal::PlanActivity& add(FlexiblePlan& plan, const std::string& id) {

@@ -11,7 +11,6 @@ namespace roci::exec::testing {
 
 using executive::Command;
 using executive::CommandAck;
-using executive::CommandAction;
 using executive::CommandStage;
 using executive::Observation;
 using goals::GoalRecord;

@@ -14,7 +14,6 @@ namespace roci::exec {
 
 using goals::GoalClass;
 using goals::GoalKey;
-using goals::GoalRecord;
 using goals::GoalState;
 using journal::Durability;
 using journal::Journal;

@@ -10,8 +10,6 @@ using executive::CommandAck;
 using executive::CommandStage;
 using reactor::ReactorInputs;
 using ::testing::Contains;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 using ::testing::Not;
 
 class SafingTest : public ReactorTest {

@@ -18,7 +18,6 @@ namespace {
 using namespace testing;
 using nlohmann::json;
 using ::testing::HasSubstr;
-using ::testing::Not;
 using ::testing::SizeIs;
 
 constexpr std::int64_t kSecond = 1'000'000;
@@ -311,27 +310,6 @@ Decide    p1.route: straight or south? asked of ground, before 00:03:20
 Repairs   scout.locomotion repairs p1.1-scout since 00:02:05, 20 % of the time until 00:02:30 used: drive: no-
 
 Events
-
-
-
-
-
-
-
-
-
-
-
-
-
-
-
-
-
-
-
-
-
 
 )");
 }

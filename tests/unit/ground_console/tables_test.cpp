@@ -20,7 +20,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using namespace testing;
-using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;

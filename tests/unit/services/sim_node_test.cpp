@@ -18,7 +18,6 @@ using namespace std::chrono_literals;
 using testing::AnyOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
-using testing::IsEmpty;
 
 v1::Event event(const std::string& text) {
   v1::Event e;

@@ -13,8 +13,6 @@ namespace roci::services::launch {
 namespace {
 
 using namespace std::chrono_literals;
-using health::PeerChange;
-using testing::Each;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;

@@ -19,7 +19,6 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-using ::testing::IsEmpty;
 
 TEST(Finding, IsTheTextOfAFileErrorTakenApart) {
   const Finding one = finding_of("/a/b.yaml:3:14: expected a number, not 'x'; write one; or two");

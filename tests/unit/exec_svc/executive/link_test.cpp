@@ -16,7 +16,6 @@ using executive::Executive;
 using executive::ExecutiveSettings;
 using executive::OutcomeKind;
 using executive::Outputs;
-using temporal::PlanActivity;
 using temporal::seconds;
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;

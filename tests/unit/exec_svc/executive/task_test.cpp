@@ -8,7 +8,6 @@
 
 namespace roci::exec::testing {
 
-using executive::Breakage;
 using executive::Command;
 using executive::CommandAction;
 using executive::CommandStage;
@@ -64,7 +63,9 @@ TEST(Sequence, IsTriedAgainFromItsFirstCommand) {
   PlanBuilder b;
   sample(b).retries = 1;
   ScriptedWorld world(b.plan);
-  world.answers("sample", {{.lasts = 10}, {.lasts = 5, .ends_with = CommandStage::failed, .reason = "stuck"}, {.lasts = 20}});
+  world.answers(
+      "sample",
+      {{.lasts = 10}, {.lasts = 5, .ends_with = CommandStage::failed, .reason = "stuck"}, {.lasts = 20}});
   world.run();
   EXPECT_THAT(world.trace, IsSupersetOf({"10 execute sample#2", "15 execute sample#3", "35 execute sample#4",
                                          "55 execute sample#5", "75 sample succeeded"}));
@@ -105,7 +106,8 @@ TEST(Sequence, AnOwnerThatIsLostConcernsItsOwnCommandsAlone) {
   ScriptedWorld other(b.plan);
   other.answers("sample", {{.lasts = 10}, {.lasts = 30}, {.lasts = 20}});
   other.at(20, {.lost_owners = {"drill"}});
-  EXPECT_THAT(other.run(), Contains(HasSubstr("20 plan broken: activity_failed, sample, owner drill is lost")));
+  EXPECT_THAT(other.run(),
+              Contains(HasSubstr("20 plan broken: activity_failed, sample, owner drill is lost")));
 }
 
 TEST(AnswerWithin, IsOfEachCommand) {
@@ -214,7 +216,8 @@ TEST(LatestEnd, IsTheDeadlineElseTheTimeAtWhichItCountsAsHung) {
   Executive executive(settings);
   ASSERT_TRUE(executive.load(b.plan, {}).empty());
   std::map<std::string, temporal::Time> told;
-  for (const Command& command : executive.step(seconds(0), {}).commands) told[command.activity] = command.latest_end;
+  for (const Command& command : executive.step(seconds(0), {}).commands)
+    told[command.activity] = command.latest_end;
   EXPECT_EQ(told.at("drive"), seconds(207));
   EXPECT_EQ(told.at("send"), seconds(70) - temporal::Duration{1}) << "in time for what follows from it";
   EXPECT_EQ(told.at("listen"), temporal::no_bound);

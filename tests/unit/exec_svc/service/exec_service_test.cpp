@@ -26,7 +26,6 @@ using namespace testing;
 using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-using ::testing::IsEmpty;
 using ::testing::StartsWith;
 
 TEST(ExecService, ACommandTellsThePlanThatIssuedItsKey) {

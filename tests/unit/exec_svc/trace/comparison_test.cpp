@@ -11,7 +11,6 @@ namespace roci::exec::trace {
 namespace {
 
 using ::testing::ElementsAre;
-using ::testing::IsEmpty;
 using testing::map_of;
 using testing::trace_of;
 

@@ -8,10 +8,8 @@
 namespace roci::exec::trace {
 namespace {
 
-using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 using testing::map_of;
-using ::testing::Pair;
 using ::testing::SizeIs;
 
 std::string renamed(const std::string& text, const std::string& sections) {

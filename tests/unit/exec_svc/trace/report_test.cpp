@@ -12,7 +12,6 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using testing::map_of;
 using ::testing::Not;
-using ::testing::SizeIs;
 using testing::trace_of;
 
 TEST(ReportTest, TheFirstDifferenceStandsBetweenTheLinesBeforeIt) {

@@ -8,7 +8,6 @@ namespace roci::planner::temporal_pddl {
 namespace {
 
 using temporal::Verdict;
-using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
 std::string why(const std::string& domain, const std::string& problem) {

@@ -22,7 +22,7 @@ using constraints::ReleaseTimes;
 using dead_ends::DeadEndDetectors;
 using extraction::Activity;
 using extraction::to_ipc;
-using heuristics::CostMeasure, heuristics::FfHeuristic;
+using heuristics::FfHeuristic;
 using improvement::eliminate_useless_actions;
 using improvement::LargeNeighbourhoodSearch, improvement::PlanReplay, improvement::RelaxedSchedule;
 using improvement::quality_of;

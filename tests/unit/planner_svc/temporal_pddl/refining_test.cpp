@@ -23,7 +23,7 @@ namespace {
 using call::Options;
 using engine::FunctionOutcome, engine::FunctionUse, engine::FunctionsMode;
 using temporal::FunctionAccuracy, temporal::Verdict;
-using ::testing::AllOf, ::testing::HasSubstr, ::testing::IsEmpty, ::testing::Not, ::testing::SizeIs;
+using ::testing::AllOf, ::testing::HasSubstr, ::testing::Not, ::testing::SizeIs;
 using testing::TwoAccuracies;
 
 constexpr std::size_t kToTheEnd = std::numeric_limits<std::size_t>::max();

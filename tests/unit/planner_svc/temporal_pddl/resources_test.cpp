@@ -17,12 +17,11 @@
 namespace roci::planner::temporal_pddl {
 namespace {
 
-using task::find_consumable_resources;
 using call::Budget, call::Monitor, call::Options, call::SearchLimits;
 using dead_ends::AtemporalAbstraction, dead_ends::ConsumptionBound, dead_ends::ResourceDeadEnds;
-using heuristics::FfHeuristic;
 using task::Action, task::ActionCompression, task::ConsumableResource, task::FactId, task::Semantics,
     task::Task;
+using task::find_consumable_resources;
 using temporal::Verdict;
 using testing::grounded, testing::model, testing::solved;
 

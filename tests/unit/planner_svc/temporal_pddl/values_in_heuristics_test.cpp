@@ -11,7 +11,6 @@ namespace {
 
 using engine::FunctionsMode;
 using heuristics::Estimate, heuristics::FfHeuristic;
-using task::Task;
 using testing::MapFunctions;
 
 // Two places on the way from home to the goal, over a left or a right one; energy for each drive.

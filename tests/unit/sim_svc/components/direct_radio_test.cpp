@@ -16,7 +16,6 @@ using temporal::Time;
 using testing::HasSubstr;
 using world::Fate;
 using world::Product;
-using world::Tier;
 
 namespace {
 

@@ -9,7 +9,6 @@
 namespace roci::sim::components {
 namespace {
 
-using services::owner::Stage;
 using temporal::Duration;
 using temporal::seconds;
 using temporal::State;

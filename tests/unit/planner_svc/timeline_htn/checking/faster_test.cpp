@@ -17,7 +17,6 @@ namespace {
 using model::Index, temporal::FlexiblePlan, temporal::PlanActivity;
 using testing::Contains;
 using testing::IsEmpty;
-using testing::Not;
 
 std::vector<std::string> names(const FlexiblePlan& plan) {
   std::vector<std::string> out;

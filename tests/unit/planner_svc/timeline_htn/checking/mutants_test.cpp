@@ -16,8 +16,7 @@
 namespace roci::planner::timeline_htn::checking {
 namespace {
 
-using temporal::ConstraintKind, temporal::FlexiblePlan, temporal::PlanActivity, temporal::seconds,
-    temporal::Token;
+using temporal::FlexiblePlan, temporal::PlanActivity, temporal::seconds, temporal::Token;
 using testing::Contains;
 using testing::HasSubstr;
 using testing::IsEmpty;

@@ -10,7 +10,7 @@ namespace roci::planner::timeline_htn::extraction {
 namespace {
 
 using temporal::FlexiblePlan, temporal::PlanActivity, temporal::seconds;
-using testing::Contains, testing::ElementsAre, testing::IsEmpty, testing::Not, testing::UnorderedElementsAre;
+using testing::Contains, testing::ElementsAre, testing::Not, testing::UnorderedElementsAre;
 
 const std::string kTeam = R"yaml(domain: team
 types: [route]

@@ -16,7 +16,7 @@ namespace {
 
 using model::Behaviour, model::Index, model::Model, model::NeedKind, model::State, model::StateKind;
 using temporal::seconds;
-using testing::ElementsAre, testing::HasSubstr;
+using testing::ElementsAre;
 
 Model rover() {
   EXPECT_EQ(faults_of(kSound), "");

@@ -14,7 +14,7 @@
 namespace roci::planner::timeline_htn {
 namespace {
 
-using search::Heuristic, search::Order, search::Outcome, search::Resolver;
+using search::Heuristic, search::Order, search::Outcome;
 using temporal::Duration, temporal::FlexiblePlan, temporal::PlanActivity, temporal::seconds;
 using testing::Contains, testing::ElementsAre, testing::HasSubstr, testing::IsEmpty, testing::IsSupersetOf,
     testing::Not;

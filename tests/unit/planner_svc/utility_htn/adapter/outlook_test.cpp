@@ -18,7 +18,7 @@ namespace {
 using engine::ChainStage, engine::DataTier, engine::SignatureOutcome, engine::StepInputs, engine::StepOutput;
 using model::Tier;
 using temporal::ActivityState, temporal::Time;
-using ::testing::AllOf, ::testing::DoubleNear, ::testing::ElementsAre, ::testing::Field, ::testing::HasSubstr,
+using ::testing::DoubleNear, ::testing::ElementsAre, ::testing::Field, ::testing::HasSubstr,
     ::testing::IsEmpty, ::testing::Not, ::testing::SizeIs;
 
 // The small lander; `image_SITE` makes 1,000 bytes and a downlink of 300 s carries 3,000.

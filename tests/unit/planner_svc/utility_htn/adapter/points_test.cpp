@@ -15,8 +15,7 @@ namespace {
 
 using namespace std::chrono_literals;
 using cycle::Block, cycle::Link, cycle::Stage, cycle::task_id;
-using temporal::CommitState, temporal::FlexiblePlan, temporal::PlanActivity, temporal::Time,
-    temporal::TimePoint;
+using temporal::FlexiblePlan, temporal::PlanActivity, temporal::Time, temporal::TimePoint;
 using ::testing::IsEmpty;
 
 // A lander that is asked for a view every hour, while one task runs as long as the mission does.

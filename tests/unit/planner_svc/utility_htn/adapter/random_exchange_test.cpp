@@ -22,7 +22,6 @@ using namespace std::chrono_literals;
 using engine::Receipt, engine::StepInputs, engine::StepOutput, engine::VersionExchange;
 using temporal::ActivityState, temporal::FlexiblePlan, temporal::PlanActivity, temporal::PlanDelta,
     temporal::Time;
-using ::testing::IsEmpty, ::testing::UnorderedElementsAre;
 
 class Chances {
  public:

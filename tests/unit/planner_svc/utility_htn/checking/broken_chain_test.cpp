@@ -10,7 +10,7 @@ namespace roci::planner::utility_htn::checking {
 namespace {
 
 using namespace std::chrono_literals;
-using temporal::ActivityState, temporal::CommitState, temporal::FlexiblePlan, temporal::Time;
+using temporal::ActivityState, temporal::CommitState, temporal::FlexiblePlan;
 using ::testing::HasSubstr, ::testing::IsEmpty;
 
 FlexiblePlan with_sample() {

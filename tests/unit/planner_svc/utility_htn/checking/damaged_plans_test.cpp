@@ -1,4 +1,7 @@
 // One plan is right; each damage to it is refused with the reason that an expert would name.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
 #include "tests/unit/planner_svc/utility_htn/checking/small_mission.hpp"
 
 namespace roci::planner::utility_htn::checking {
@@ -7,7 +10,6 @@ namespace {
 using temporal::seconds;
 using testing::AnyOf;
 using testing::Contains;
-using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;

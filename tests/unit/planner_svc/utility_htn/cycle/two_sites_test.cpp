@@ -9,7 +9,7 @@ namespace roci::planner::utility_htn::cycle {
 namespace {
 
 using namespace std::chrono_literals;
-using temporal::Duration, temporal::Time;
+using temporal::Time;
 using ::testing::Contains, ::testing::ElementsAre, ::testing::IsEmpty, ::testing::Not;
 using testing::task_named, testing::toy_network;
 

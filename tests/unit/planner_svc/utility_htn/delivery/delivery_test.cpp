@@ -19,9 +19,8 @@ namespace {
 using namespace std::chrono_literals;
 using model::Tier;
 using temporal::Time;
-using ::testing::Contains, ::testing::ElementsAre, ::testing::IsEmpty, ::testing::Not, ::testing::Pair,
-    ::testing::SizeIs;
-using testing::kBattery, testing::task_named, testing::toy_network;
+using ::testing::Contains, ::testing::ElementsAre, ::testing::IsEmpty, ::testing::Not, ::testing::SizeIs;
+using testing::task_named, testing::toy_network;
 
 TEST_F(DeliveryTest, WhatADownlinkCanCarryIsPlanned) {
   EXPECT_THAT(planned(), ElementsAre("idle", "sample", "view"));

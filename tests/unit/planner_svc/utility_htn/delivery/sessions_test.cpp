@@ -21,7 +21,7 @@ using model::Tier;
 using temporal::Time;
 using ::testing::Contains, ::testing::ElementsAre, ::testing::IsEmpty, ::testing::Not, ::testing::Pair,
     ::testing::SizeIs;
-using testing::kBattery, testing::task_named, testing::toy_network;
+using testing::task_named, testing::toy_network;
 
 // `sample` has begun, and more waits for its downlink than the 20 s of the network carry.
 class LongSessions : public DeliveryTest {

@@ -1,4 +1,6 @@
 // Whether the data of one more task has room (appendix A, R127).
+#include <gtest/gtest.h>
+
 #include "planner_svc/utility_htn/downlink/manager.hpp"
 
 namespace roci::planner::utility_htn::downlink {

@@ -1,5 +1,7 @@
 // One case for each constraint of appendix A (R111, R126): with the limit a product stays on
 // board, without it it is sent.
+#include <gtest/gtest.h>
+
 #include <stdexcept>
 
 #include "planner_svc/utility_htn/downlink/manager.hpp"

@@ -1,3 +1,5 @@
+#include <gtest/gtest.h>
+
 #include "tests/unit/planner_svc/utility_htn/downlink/brute_force.hpp"
 
 namespace roci::planner::utility_htn::downlink {

@@ -1,4 +1,6 @@
 // The two preferences of appendix A (R126, Z17): utility, rank by rank, and then the earliest downlink.
+#include <gtest/gtest.h>
+
 #include "planner_svc/utility_htn/downlink/manager.hpp"
 
 namespace roci::planner::utility_htn::downlink {

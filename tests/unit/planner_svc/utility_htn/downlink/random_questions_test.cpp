@@ -1,3 +1,5 @@
+#include <gtest/gtest.h>
+
 #include <iostream>
 
 #include "planner_svc/utility_htn/downlink/capacity.hpp"

@@ -21,7 +21,7 @@ namespace {
 
 using flattening::Chain, flattening::Chains;
 using model::Network, model::Task;
-using testing::Contains, testing::HasSubstr;
+using testing::Contains;
 
 const std::filesystem::path kMission = ROCI_SOURCE_DIR "/missions/europa";
 

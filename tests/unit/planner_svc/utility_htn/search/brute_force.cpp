@@ -7,7 +7,7 @@
 
 namespace roci::planner::utility_htn::search {
 
-using temporal::ImpactKind, temporal::ImpactWhen, temporal::RankVector, temporal::seconds, temporal::Time;
+using temporal::ImpactKind, temporal::ImpactWhen, temporal::RankVector, temporal::seconds;
 using temporal::timelines::Timelines;
 
 namespace {

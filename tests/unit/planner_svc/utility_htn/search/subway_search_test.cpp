@@ -12,7 +12,7 @@ namespace {
 namespace search = roci::planner::utility_htn::search;
 namespace model = roci::planner::utility_htn::model;
 using roci::planner::utility_htn::assessor::SubwayAssessor;
-using search::Outcome, search::Placed, search::Problem, search::Toy;
+using search::Problem, search::Toy;
 using testing::ElementsAre;
 
 // Three sites of three targets; the last site tempts with the greatest worth for the least energy.

@@ -1,6 +1,8 @@
 // Golden numbers, worked out by hand.
 #include "planner_svc/utility_htn/strategies/equations.hpp"
 
+#include <gtest/gtest.h>
+
 #include <stdexcept>
 
 namespace roci::planner::utility_htn::strategies {

@@ -1,5 +1,7 @@
 // Long plans of equal tasks are executed with independent failures; the mean of what they bring home agrees with
 // equations 2–5 within its confidence interval.
+#include <gtest/gtest.h>
+
 #include <cmath>
 #include <random>
 
