@@ -163,12 +163,12 @@ class ExecService final : public services::Service {
     const Reactor& reactor = reactor_.reactor();
     publisher_.send_goals(reactor);
     if (!recovery.resumed) {
-      orders_.tell_concluded(reactor);
+      orders_.tell_concluded(reactor, recovery.until);
       return report_divergence(*recovery.divergence);
     }
     publisher_.send_plan(reactor);
     decisions_.tell(reactor);
-    orders_.tell(reactor);
+    orders_.tell(reactor, recovery.until);
     if (engine_) engine_->tell(reactor.receipt());
     for (const Event& event : recovery.last_events) publisher_.report(event);
     presence_.recall_peers();

@@ -72,19 +72,19 @@ OrderLink::OrderLink(services::Node& node, std::function<void(Order, std::string
 }
 
 void OrderLink::send(const ReactorOutputs& out) const {
-  for (const Observation& value : out.values) tell(value);
-  for (const Observation& value : out.concluded) tell(value);
+  for (const Observation& value : out.values) tell(value, node_.now());
+  for (const Observation& value : out.concluded) tell(value, node_.now());
   for (const OrderStatus& status : out.order_statuses) tell(status);
 }
 
-void OrderLink::tell(const Reactor& reactor) const {
-  for (const auto& [timeline, value] : reactor.ground_values()) tell(Observation{timeline, value});
-  tell_concluded(reactor);
+void OrderLink::tell(const Reactor& reactor, temporal::Time until) const {
+  for (const auto& [timeline, value] : reactor.ground_values()) tell(Observation{timeline, value}, until);
+  tell_concluded(reactor, until);
   tell_orders(reactor);
 }
 
-void OrderLink::tell_concluded(const Reactor& reactor) const {
-  for (const auto& [timeline, value] : reactor.told_conclusions()) tell(Observation{timeline, value});
+void OrderLink::tell_concluded(const Reactor& reactor, temporal::Time until) const {
+  for (const auto& [timeline, value] : reactor.told_conclusions()) tell(Observation{timeline, value}, until);
 }
 
 void OrderLink::tell_orders(const Reactor& reactor) const {
@@ -106,11 +106,11 @@ void OrderLink::tell(const OrderStatus& status) const {
   statuses_.write(std::move(out));
 }
 
-void OrderLink::tell(const Observation& value) const {
+void OrderLink::tell(const Observation& value, temporal::Time sampled) const {
   v1::Observation out;
   out.timeline(value.timeline);
   out.observed(services::wire::to_wire(value.value));
-  out.sampled_us(node_.now().count());
+  out.sampled_us(sampled.count());
   observations_.write(std::move(out));
 }
 

@@ -23,16 +23,17 @@ class OrderLink {
   void acknowledge_as(goals::AckStage stage) { ack_stage_ = stage; }
   /// Sends what a step has decided.
   void send(const reactor::ReactorOutputs& out) const;
-  /// Publishes everything as it stands, for late joiners after a restart.
-  void tell(const reactor::Reactor& reactor) const;
-  /// Publishes what plans have made of timelines that nobody observes.
-  void tell_concluded(const reactor::Reactor& reactor) const;
+  /// Publishes everything as it stands, for late joiners after a restart. Values are those of the time at which the
+  /// record ends: what has moved them since is newer.
+  void tell(const reactor::Reactor& reactor, temporal::Time until) const;
+  /// Publishes what plans have made of timelines that nobody observes, by that time.
+  void tell_concluded(const reactor::Reactor& reactor, temporal::Time until) const;
   /// Publishes where every order stands.
   void tell_orders(const reactor::Reactor& reactor) const;
 
  private:
   void tell(const orders::OrderStatus& status) const;
-  void tell(const executive::Observation& value) const;
+  void tell(const executive::Observation& value, temporal::Time sampled) const;
 
   services::Node& node_;
   goals::AckStage ack_stage_ = goals::AckStage::journaled;

@@ -81,6 +81,7 @@ bool JournaledReactor::replay() {
                               const bool snapshot = kind == "anchor" || kind == "restored";
                               if (snapshot && replay.turns() == 0) reactor_->restore(bytes);
                               replay.take(time, kind, bytes);
+                              recovery_.until = time;
                             });
   } catch (const ArchiveError& error) {
     return fail("a snapshot that can be read", error.what());

@@ -18,9 +18,10 @@ namespace roci::exec::journal {
 
 /// Says what was found in the journal.
 struct Recovery {
-  bool restarted = false;  ///< an earlier start left something
-  bool resumed = false;    ///< its state is back; else only its goals are, and all is planned anew
-  std::size_t turns = 0;   ///< replayed since the last anchor
+  bool restarted = false;   ///< an earlier start left something
+  bool resumed = false;     ///< its state is back; else only its goals are, and all is planned anew
+  std::size_t turns = 0;    ///< replayed since the last anchor
+  temporal::Time until{0};  ///< time of the newest record that was replayed
   std::optional<Divergence> divergence;     ///< why it was not resumed
   std::vector<reactor::Event> last_events;  ///< those of the newest turn, which may not have been sent
 };

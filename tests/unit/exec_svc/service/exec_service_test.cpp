@@ -4,12 +4,16 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
 
 #include "exec_svc/limits.hpp"
 #include "exec_svc/wire_service.hpp"
+#include "services/wire/plan_wire.hpp"
 #include "tests/unit/exec_svc/planetary_fixture.hpp"
 #include "tests/unit/exec_svc/service/exec_seat.hpp"
 
@@ -26,6 +30,7 @@ using namespace testing;
 using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::SizeIs;
 using ::testing::StartsWith;
 
 TEST(ExecService, ACommandTellsThePlanThatIssuedItsKey) {
@@ -193,6 +198,38 @@ TEST(ExecService, ARestartGoesOnWithTheRunningPlan) {
   EXPECT_EQ(seat.mission.outcome(), "achieved");
   EXPECT_EQ(seat.mission.goals_achieved(), 2U);
   EXPECT_EQ(seat.journal().goals().size(), 2U);
+}
+
+// What has moved a timeline while the executive was gone is newer than what it knew of it.
+TEST(ExecService, ARestartTellsWhatTheGroundHasSetAsOfTheTimeToWhichTheRecordGoes) {
+  const auto mission = std::filesystem::temp_directory_path() / ("roci_told_" + std::to_string(::getpid()));
+  std::filesystem::copy(ROCI_SOURCE_DIR "/missions/planetary", mission,
+                        std::filesystem::copy_options::recursive);
+  std::ofstream(mission / "mission.yaml", std::ios::app) << "ground: {values: [door]}\n";
+  {
+    ExecSeat seat("inproc", "inproc", services::next_domain(), {}, mission);
+    const auto orders = services::advertise(seat.robot(), services::topics::order);
+    std::vector<std::int64_t> sampled_us;
+    services::subscribe(seat.robot(), services::topics::observation, [&](const v1::Observation& told) {
+      if (told.timeline() == "door") sampled_us.push_back(told.sampled_us());
+    });
+    seat.send(5s, photo_goal("first"));
+    seat.at(10s, [&] {
+      v1::Order set;
+      set.issuer("ground");
+      set.id("opens");
+      set.order_kind(v1::ORDER_SET_VALUE);
+      set.target("door");
+      set.content(services::wire::to_wire(temporal::Value(temporal::state("open"))));
+      orders.write(std::move(set));
+    });
+    seat.kill_executive_at(30s);
+    seat.run_until(100s);
+    ASSERT_THAT(sampled_us, SizeIs(2)) << "when it is set, and after the restart";
+    EXPECT_GE(sampled_us[1], sampled_us[0]);
+    EXPECT_LE(sampled_us[1], 30'000'000);
+  }
+  std::filesystem::remove_all(mission);
 }
 
 // A planner call dies with who made it.
