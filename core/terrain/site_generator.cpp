@@ -107,7 +107,7 @@ void scatter_rocks(Layer& rocks, const SiteRecipe& recipe) {
   pseudorandom::SplitMix64 random(recipe.seed ^ 0x20c5);
   constexpr std::int64_t kClass = 50;
   for (std::int64_t d = 200; d < 2000; d += kClass) {
-    const double diameter = static_cast<double>(d + kClass / 2) / 1000;
+    const double diameter = static_cast<double>(2 * d + kClass) / 2000;
     const double share =
         covered(static_cast<double>(d) / 1000) - covered(static_cast<double>(d + kClass) / 1000);
     const auto count = std::llround(site_area * share / (kPi / 4 * diameter * diameter));

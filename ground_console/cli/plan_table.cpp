@@ -63,7 +63,8 @@ bool is_bound(const v1::PlanActivity& activity) {
 }
 
 std::string duration_of(const v1::PlanActivity& activity) {
-  return lib::value_text(static_cast<double>(activity.duration_lower_us() / 100'000) / 10) + " s";
+  const std::int64_t tenths = activity.duration_lower_us() / 100'000;
+  return lib::value_text(static_cast<double>(tenths) / 10) + " s";
 }
 
 }  // namespace
