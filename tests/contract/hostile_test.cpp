@@ -160,10 +160,8 @@ class Eavesdropper {
 
 // Each says that the victim has left: under its name, under the attacker's own, and with a change of name on the way.
 std::vector<Message> farewells_of(const Prefix& victim, const Prefix& own, hostile::Vendor vendor) {
-  constexpr hostile::Entity kWriter = 0x000100c2, kReader = 0x000100c7, kParticipant = 0x000001c1;
-  const auto end =
-      hostile::Parameters().add_guid(0x0070, victim, kParticipant).add(0x0071, {0, 0, 0, 3}).list();
-  const auto named = hostile::Parameters().add_guid(0x0050, victim, kParticipant).sample();
+  constexpr hostile::Entity kWriter = 0x000100c2, kReader = 0x000100c7;
+  const auto [end, named] = hostile::farewell_of(victim);
   hostile::Bytes source{0, 0, 0, 0, 2, 2, vendor[0], vendor[1]};
   hostile::put_bytes(source, victim);
   std::vector<Message> messages;

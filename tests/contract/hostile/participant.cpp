@@ -103,11 +103,15 @@ void Participant::announce() {
   }
 }
 
+Farewell farewell_of(const Prefix& prefix) {
+  return {Parameters().add_guid(0x0070, prefix, kParticipant).add(0x0071, {0, 0, 0, 3}).list(),
+          Parameters().add_guid(0x0050, prefix, kParticipant).sample()};
+}
+
 void Participant::leave() {
-  const auto gone = Parameters().add_guid(0x0070, prefix_, kParticipant).add(0x0071, {0, 0, 0, 3}).list();
+  const Farewell gone = farewell_of(prefix_);
   send_to_discovery(message().data(kParticipantReader, kParticipantWriter, ++announcements_,
-                                   kInlineQos | kKey, gone,
-                                   Parameters().add_guid(0x0050, prefix_, kParticipant).sample()));
+                                   kInlineQos | kKey, gone.inline_qos, gone.key));
 }
 
 void Participant::send_to_readers(const Message& message) const {

@@ -71,6 +71,13 @@ class Participant {
   std::chrono::microseconds lease_{20'000'000};
 };
 
+/// What a sample of discovery says of a participant that has left.
+struct Farewell {
+  Bytes inline_qos;  ///< which instance it is, and that it is disposed and unregistered
+  Bytes key;         ///< as a sample
+};
+Farewell farewell_of(const Prefix&);
+
 /// The entity id of the writer that was added as number `index`, from 0.
 Entity writer_id(std::size_t index, bool keyed);
 
