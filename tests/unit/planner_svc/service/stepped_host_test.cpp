@@ -4,13 +4,16 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <filesystem>
 #include <fstream>
 #include <limits>
 #include <stdexcept>
+#include <thread>
 
 #include "planner_svc/engine_host_service.hpp"
 #include "planner_svc/limits.hpp"
+#include "services/clock/wall.hpp"
 #include "services/publisher.hpp"
 #include "tests/unit/services/sim_run.hpp"
 
@@ -308,6 +311,63 @@ TEST_F(SteppedService, AnImpossibleFactIsToldAndHeardAsFarAsItMayBe) {
                           ::testing::HasSubstr("planner.measured: the time of an observation lies"),
                           ::testing::HasSubstr("'image' has 18446744073709551615 bytes"),
                           ::testing::HasSubstr("planner.measured: the time of a step lies")));
+}
+
+// Wants to be stepped again 5 ms after each step began; the first one ends after that.
+class LateEngine final : public engine::SteppedEngine {
+ public:
+  explicit LateEngine(std::atomic<int>& steps) : steps_(steps) {}
+  StepOutput step(const StepInputs& inputs) override {
+    const auto begun = services::clock::wall_now();
+    if (steps_ == 0)
+      while (services::clock::wall_now() < begun + 20ms) std::this_thread::yield();
+    ++steps_;
+    StepOutput out;
+    out.wake = inputs.now + 5ms;
+    return out;
+  }
+
+ private:
+  std::atomic<int>& steps_;
+};
+
+TEST(LiveSteppedService, AStepThatLastsBeyondTheNextIsFollowedByIt) {
+  std::atomic<int> steps = 0;
+  const engine::Table table{
+      {"scripted",
+       {engine::MakeStepped([&](const engine::Setup&) { return std::make_unique<LateEngine>(steps); }),
+        [] { return std::make_unique<ScriptedChecker>(); }}}};
+  const auto folder = std::filesystem::temp_directory_path() / ("roci_late_" + std::to_string(::getpid()));
+  std::filesystem::create_directories(folder);
+  std::ofstream(folder / "mission.yaml") << "planner: {engine: scripted}\n";
+  services::RunSettings settings;
+  settings.mission = folder;
+  services::SimRun run{{"nobody"}};
+  const auto live = [&](const std::string& name) {
+    services::node::NodeOptions options;
+    options.name = name;
+    options.vendor = "inproc";
+    return services::Node(options, run.transport());
+  };
+  services::Node executive = live("exec_svc"), planner = live("planner_svc");
+  const auto service = host_engines(planner, settings, table);
+  const auto goals = services::advertise(executive, topics::goal);
+  const auto statuses = services::advertise(executive, topics::goal_status);
+  v1::Goal goal;
+  goal.issuer("ground");
+  goal.id("a");
+  goals.write(goal);
+  v1::GoalStatus status;
+  status.executive("exec_svc");
+  status.issuer("ground");
+  status.id("a");
+  statuses.write(status);
+  for (int i = 0; i < 5000 && steps < 3; ++i) {
+    executive.spin_once(1ms);
+    planner.spin_once(1ms);
+  }
+  EXPECT_GE(steps, 3) << "nothing else calls for one";
+  std::filesystem::remove_all(folder);
 }
 
 }  // namespace
