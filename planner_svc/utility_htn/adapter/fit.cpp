@@ -34,6 +34,10 @@ bool remembers(const model::Network& network, const Token& token) {
     const auto* const value = std::get_if<double>(&token.held);
     return known != network.parameters.end() && value != nullptr && known->permits(*value);
   }
+  if (name == kLastBlock) {
+    const auto* const number = std::get_if<double>(&token.held);
+    return number != nullptr && is_count(*number);
+  }
   if (!name.starts_with("internal.")) return true;
   const auto known = std::ranges::find(network.timelines, rest, &temporal::timelines::Definition::name);
   return known != network.timelines.end() && number_of(*known, token.held).has_value();

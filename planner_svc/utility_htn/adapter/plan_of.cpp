@@ -222,6 +222,7 @@ FlexiblePlan plan_of(const model::Network& network, const flattening::Chains& ch
       remember("internal." + network.timelines[i].name, value_of(network.timelines[i], past.internal[i]));
   for (const std::string& activity : frame.measured) remember("measured." + activity, true);
   remember(kPastUntil, temporal::to_seconds(cycle.timelines().past()));
+  remember(kLastBlock, static_cast<double>(cycle.last_block()));
   out.point_count = points.count();
   return out;
 }

@@ -45,6 +45,9 @@ class Points {
 
 /// Names the token that says up to which mission time, in seconds, the other tokens of the past count.
 inline constexpr char kPastUntil[] = "past_until";
+/// Names the token that holds the number of the newest block: a number is never given again, or two activities would
+/// have one name, and their commands one key.
+inline constexpr char kLastBlock[] = "last_block";
 
 /// Returns whether a token may hold this number as a count.
 constexpr bool is_count(double number) { return number >= 0 && number <= 1e9; }

@@ -77,6 +77,10 @@ class Recovery {
       const auto* seconds = std::get_if<double>(&token.held);
       if (seconds == nullptr) foreign("time in " + token.timeline);
       out_.past_until = temporal::seconds(*seconds);
+    } else if (name == kLastBlock) {
+      const auto* number = std::get_if<double>(&token.held);
+      if (number == nullptr || !is_count(*number)) foreign("number in " + token.timeline);
+      out_.last_block = std::max(out_.last_block, static_cast<std::uint32_t>(*number));
     } else if (name.starts_with("measured.")) {
       out_.measured.emplace(rest);
     }

@@ -14,6 +14,12 @@ namespace roci::planner::utility_htn::adapter {
 using engine::Goal, engine::StepInputs, engine::StepOutput;
 using temporal::ActivityState, temporal::FlexiblePlan, temporal::Time;
 
+namespace {
+
+constexpr std::uint32_t kBlocksOfAVersion = 1000, kMostVersions = 1'000'000;
+
+}  // namespace
+
 UtilityEngine::UtilityEngine(const engine::Setup& setup, model::Network network, cycle::Settings settings)
     : setup_(setup), planned_(std::move(network), settings, read_resolvers(setup.resolvers)) {}
 
@@ -40,6 +46,9 @@ StepOutput UtilityEngine::step(const StepInputs& inputs) {
 }
 
 void UtilityEngine::run_cycle(const StepInputs& inputs, StepOutput& out) {
+  // No plan is executed that would tell which numbers another process of this run has used; far fewer than these.
+  if (!goes_on_)
+    planned_.cycle().number_beyond(std::min(inputs.last_version, kMostVersions) * kBlocksOfAVersion);
   const bool lost = published_.give_up();  // for a whole interval nobody has answered
   planned_.place_fixed_tasks(inputs.now);
   std::vector<cycle::Block> begun;

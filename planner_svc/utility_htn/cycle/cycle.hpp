@@ -103,6 +103,9 @@ class Cycle {
   /// Goes on where another process stood at `since`; what became of the blocks after that is told next.
   void resume(const Past& past, std::vector<Block> blocks, std::uint32_t last_block, temporal::Time since);
 
+  /// Numbers blocks beyond this one from now on, since another process may have used the numbers up to it.
+  void number_beyond(std::uint32_t block) { last_block_ = std::max(last_block_, block); }
+
   Report run(temporal::Time now);
 
   const std::vector<Block>& blocks() const { return blocks_; }

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <functional>
+#include <set>
 
 #include "core/temporal/plan_delta.hpp"
 #include "planner_svc/utility_htn/adapter/utility_engine.hpp"
@@ -80,6 +82,43 @@ TEST(RestartedEngine, KnowsWhatWasReportedBeforeItBegan) {
   };
   EXPECT_TRUE(has("send_view"));
   EXPECT_FALSE(has("send_sample")) << "which takes 350 J";
+}
+
+// Two activities of one name would have one key, and the owner would answer for the second what became of the first.
+TEST(RestartedEngine, GivesNoNumberOfABlockAgain) {
+  UtilityEngine died = new_engine();
+  FlexiblePlan plan;
+  ASSERT_EQ(temporal::apply(*died.step(beginning()).delta, plan), "");
+  std::set<std::string> used;
+  for (const temporal::PlanActivity& activity : plan.activities) used.insert(activity.id);
+  ASSERT_THAT(used, ::testing::SizeIs(::testing::Gt(4U)));
+  // All but the first block is over and has left the plan.
+  const auto is_first = [](const temporal::PlanActivity& one) {
+    return one.id.find("#1.") != std::string::npos;
+  };
+  std::erase_if(plan.activities, std::not_fn(is_first));
+  ASSERT_THAT(plan.activities, Not(::testing::IsEmpty()));
+  std::erase_if(plan.tokens, [](const temporal::Token& one) {
+    return one.start_point != temporal::origin_point &&
+           std::get<temporal::State>(one.held).arguments.front() != "1";
+  });
+  for (const bool executed : {true, false}) {
+    UtilityEngine anew = new_engine();
+    StepInputs inputs = beginning();
+    inputs.now = Time(6s);
+    inputs.receipt->version = executed ? plan.version : 0;
+    inputs.last_version = plan.version;
+    if (executed) inputs.executed = plan;
+    const StepOutput out = anew.step(inputs);
+    ASSERT_TRUE(out.delta);
+    int added = 0;
+    for (const temporal::PlanActivity& activity : out.delta->added.activities) {
+      if (is_first(activity) && executed) continue;
+      EXPECT_FALSE(used.contains(activity.id)) << activity.id;
+      ++added;
+    }
+    EXPECT_GT(added, 3);
+  }
 }
 
 // A cycle may take longer than its interval; here three have passed until the engine is stepped again.
