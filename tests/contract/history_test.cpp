@@ -1,6 +1,7 @@
 // What readers get of the past and in which order.
 #include <gmock/gmock.h>
 
+#include "services/transport/refused_datagrams.hpp"
 #include "tests/contract/support/inbox.hpp"
 #include "tests/contract/support/pairing.hpp"
 #include "tests/contract/support/profiles.hpp"
@@ -99,6 +100,37 @@ TEST_P(History, BestEffortSamplesKeepTheirOrder) {
     ASSERT_TRUE(transport::deserialize(sample.payload, value));
     EXPECT_GT(value.priority(), last);
     last = value.priority();
+  }
+}
+
+// A goal whose serialized form has that many bytes, or up to 7 more, as its padding has it.
+transport::Payload goal_of_size(const std::string& id, std::size_t size) {
+  const std::size_t bare = goal(id, 1).size();
+  for (std::size_t filling = size - bare;; ++filling)
+    if (auto sample = goal(id, 1, "ground", std::string(filling, 'r')); sample.size() >= size) return sample;
+}
+
+// Fast DDS packs a history into messages as long as they may be. Samples of these sizes, each with a gap behind it,
+// fill one to the last byte; what it adds to it then must find its place. Cyclone DDS would send the largest in two
+// fragments each, which ended Fast DDS readers that met them between gaps.
+TEST_P(History, LateJoinersRefuseNoDatagramThatIsAsLongAsItMayBe) {
+  constexpr std::size_t kInstances = 250;
+  const auto sender = open_writing();
+  const auto receiver = open_reading();
+  for (const std::size_t size : {476, 788, 1528}) {
+    for (int round = 0; round < 10; ++round) {
+      const auto writer = sender->create_writer(goal_endpoint(latched(1)), {});
+      for (std::size_t i = 0; i < kInstances; ++i) {
+        ASSERT_TRUE(writer->write(goal_of_size(std::to_string(1000 + i), size)));
+        ASSERT_TRUE(writer->write(goal("replaced", 1)));
+      }
+      Inbox inbox;
+      const auto reader = receiver->create_reader(goal_endpoint(latched(1)), inbox.reader_events());
+      ASSERT_TRUE(inbox.wait_for_samples(kInstances + 1));
+      const auto* guarded = dynamic_cast<const transport::RefusesDatagrams*>(receiver.get());
+      if (guarded == nullptr) continue;  // in one process there are none
+      ASSERT_THAT(guarded->refused_datagrams(), testing::IsEmpty()) << size << " bytes, round " << round;
+    }
   }
 }
 

@@ -13,6 +13,9 @@ using eprosima::fastrtps::rtps::octet;
 
 namespace {
 
+/// The submessage 0x80 at the end of each message of Debian's build, with its header.
+constexpr std::uint32_t kStatisticsSize = 60;
+
 std::optional<guard::Source> source_of(const Locator_t& locator) {
   if (locator.kind != LOCATOR_KIND_UDPv4) return std::nullopt;
   std::uint32_t address = 0;
@@ -63,6 +66,10 @@ class GuardedDescriptor : public transports::ChainingTransportDescriptor {
       : ChainingTransportDescriptor(std::move(udp)), guard_(std::move(guard)) {}
   transports::TransportInterface* create_transport() const override {
     return new GuardedTransport(*this, guard_);
+  }
+  /// Fast DDS fills messages up to this size and then adds its statistics, for which it keeps no room.
+  std::uint32_t max_message_size() const override {
+    return ChainingTransportDescriptor::max_message_size() - kStatisticsSize;
   }
 
  private:
