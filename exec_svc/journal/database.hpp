@@ -56,6 +56,7 @@ goals::GoalRecord goal_in(const GoalRow& row);
 /// Keeps the open database, and the changes since the last commit until the disk has taken them.
 struct Journal::Database {
   Database(const std::filesystem::path& file, Durability durability);
+  explicit Database(const std::filesystem::path& file);  ///< to read alone
   ~Database();
   Database(const Database&) = delete;
   Database& operator=(const Database&) = delete;
@@ -76,9 +77,9 @@ struct Journal::Database {
   void note_extent();
 
   sqlite3* handle = nullptr;
-  std::unique_ptr<Statement> append_record;
-  std::optional<std::uint64_t> epoch;  ///< commits are batches of it
-  std::vector<Batch> batches;          ///< not taken yet
+  std::unique_ptr<Statement> append_record;  ///< none where the journal is read alone
+  std::optional<std::uint64_t> epoch;        ///< commits are batches of it
+  std::vector<Batch> batches;                ///< not taken yet
   bool open_transaction = false;
   DiskWait disk_wait;
   std::optional<HighWaterMark> mark;  ///< of how far this journal was written, where it is watched
@@ -88,6 +89,9 @@ struct Journal::Database {
   std::optional<Batch> record_changes();
   void write();
   void close();
+  /// Runs `settle` on the file just opened; closes it, and names it, in each error.
+  void open_as_journal(const std::filesystem::path& file, int status, const std::string& remedy,
+                       const std::function<void()>& settle);
 
   sqlite3_session* session_ = nullptr;          ///< of the open transaction, if it becomes a batch
   std::vector<std::function<void()>> changes_;  ///< since the last commit

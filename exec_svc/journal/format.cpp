@@ -32,13 +32,17 @@ std::string to_text(const StatedFormat& stated) {
          (other > 0 && other < 1000 ? "format " + std::to_string(other) : "none") + " in the other";
 }
 
-void settle_format(sqlite3* database) {
-  const StatedFormat stated = stated_format(database);
+void require_known_format(const StatedFormat& stated) {
   if (stated.newer()) {
     throw NewerJournal("it is of format " + std::to_string(stated.version) + ", this version reads up to " +
                        std::to_string(kFormat) + "; go on with the version that wrote it");
   }
   if (stated.contradicts_itself()) throw JournalError(to_text(stated));
+}
+
+void settle_format(sqlite3* database) {
+  const StatedFormat stated = stated_format(database);
+  require_known_format(stated);
   if (stated.version == kFormat && stated.stamp == stamp_of(kFormat)) return;
   const std::string statement = "BEGIN; PRAGMA user_version = " + std::to_string(kFormat) +
                                 "; PRAGMA application_id = " + std::to_string(stamp_of(kFormat)) + "; COMMIT";

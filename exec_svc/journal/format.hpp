@@ -34,9 +34,12 @@ struct StatedFormat {
 StatedFormat stated_format(sqlite3* database);
 std::string to_text(const StatedFormat& stated);
 
+/// Throws NewerJournal for a journal of a newer version, and JournalError for one whose places contradict each other.
+void require_known_format(const StatedFormat& stated);
+
 /// Leaves an open journal at kFormat, stated in both places. A journal that states no version is of version 1, as
-/// baseline-05 wrote them; older versions are brought up here, step by step. Throws NewerJournal for a newer one, and
-/// JournalError for one whose places contradict each other; nothing has changed then.
+/// baseline-05 wrote them; older versions are brought up here, step by step. Throws as require_known_format() does;
+/// nothing has changed then.
 void settle_format(sqlite3* database);
 
 }  // namespace roci::exec::journal

@@ -101,6 +101,9 @@ void decode(GoalKey key, const std::string& text, GoalRecord& record) {
 Journal::Journal(const std::filesystem::path& file, Durability durability)
     : file_(file), durability_(durability), database_(std::make_unique<Database>(file, durability)) {}
 
+Journal::Journal(const std::filesystem::path& file)
+    : file_(file), durability_(Durability::process), database_(std::make_unique<Database>(file)) {}
+
 Journal::~Journal() = default;
 
 void Journal::commit() { database_->commit(); }

@@ -17,7 +17,6 @@
 namespace {
 
 namespace fs = std::filesystem;
-using roci::exec::journal::Durability;
 using roci::exec::journal::Journal;
 using roci::exec::journal::JournalError;
 using roci::exec::journal::replay_run;
@@ -85,7 +84,7 @@ roci::exec::mission::MissionModel mission_of(const Journal& journal, const Optio
 }
 
 int replay(const Options& options) {
-  const Journal journal(journal_file(options.journal), Durability::process);
+  const Journal journal(journal_file(options.journal));
   const std::int64_t format = journal.number("format", 0);
   if (format == 0) throw JournalError(options.journal.string() + " holds no inputs of a run");
   if (format != roci::exec::journal::kInputFormat)

@@ -4,6 +4,12 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sqlite3.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 
 #include "tests/unit/exec_svc/crash_world.hpp"
 #include "tests/unit/exec_svc/planetary_fixture.hpp"
@@ -26,7 +32,7 @@ class RunReplayTest : public ::testing::Test {
     world.send(10, photo("first"));
     world.send(30, photo("second"));
     trace = world.fly(600).trace_sha256;
-    return replay_run(Journal(world.file(), Durability::process), mission);
+    return replay_run(Journal(world.file()), mission);
   }
   std::string trace;
 };
@@ -75,6 +81,38 @@ TEST_F(RunReplayTest, TextsAreForgottenButForTheNewest) {
   EXPECT_TRUE(anchored);
   EXPECT_LE(before, 5U);
   EXPECT_EQ(journal.goals().size(), 2U) << "goals are never forgotten";
+}
+
+// Whoever repeats a run by mistake from another program's database finds that database as it was.
+TEST(ReadJournal, WhatIsNoJournalIsRefusedAndStaysAsItIs) {
+  namespace fs = std::filesystem;
+  const fs::path folder = fs::temp_directory_path() / ("roci_no_journal_" + std::to_string(::getpid()));
+  fs::create_directories(folder);
+  const auto content_of = [](const fs::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    return std::string(std::istreambuf_iterator<char>(in), {});
+  };
+  const auto refused = [&](const std::string& content) {
+    const auto file = folder / "given";
+    std::ofstream(file, std::ios::binary) << content;
+    EXPECT_THROW(Journal{file}, journal::JournalError);
+    EXPECT_EQ(content_of(file), content);
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder), {}), 1);
+  };
+  refused("");
+  refused("x");
+  refused("no database of any kind");
+  const auto other = folder / "other";
+  sqlite3* database = nullptr;
+  ASSERT_EQ(sqlite3_open(other.c_str(), &database), SQLITE_OK);
+  ASSERT_EQ(
+      sqlite3_exec(database, "CREATE TABLE mine(a); INSERT INTO mine VALUES(1)", nullptr, nullptr, nullptr),
+      SQLITE_OK);
+  sqlite3_close(database);
+  const std::string content = content_of(other);
+  fs::remove(other);
+  refused(content);
+  fs::remove_all(folder);
 }
 
 TEST_F(RunReplayTest, TellsWhereOtherRulesDecideOtherwise) {
