@@ -292,7 +292,8 @@ void add_ground_verbs(CLI::App& app, Line& line) {
   reach->add_option("--from", line.from, "Where the way begins: X Y (default: where the robot is)")
       ->expected(2);
   reach->add_option("--robot", line.reach.robot, "From where this robot is (default: the only one)");
-  reach->add_option("--service", line.reach.service, "The path planner that is asked")->capture_default_str();
+  reach->add_option("--service", line.reach.service,
+                    "The path planner that is asked (default: the robot's own, or the only one)");
   CLI::App* map =
       add_verb(app, line, "map", "Draw the ground with hazards, zones, planned and driven ways", nullptr);
   map->add_option("--png", line.map.png, "Write the ground as a picture to this file");

@@ -118,7 +118,9 @@ int order_network(lib::Client& client, const NetworkArguments& arguments, bool a
   if (!last) {
     std::cerr << "roci: no planner with a task network"
               << (arguments.robot.empty() ? "" : " of robot '" + arguments.robot + "'") << " answered within "
-              << kAnswerLimit.count() / 1000 << " s; is the mission running there (roci status)?\n";
+              << kAnswerLimit.count() / 1000
+              << (client.view().mission() != nullptr ? kOnItsWay
+                                                     : " s; is the mission running there (roci status)?\n");
     return kNoMission;
   }
   if (last->stage() == v1::NETWORK_REFUSED) return kRefused;

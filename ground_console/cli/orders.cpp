@@ -2,6 +2,7 @@
 
 #include <array>
 #include <charconv>
+#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <iterator>
@@ -51,7 +52,8 @@ v1::TimelineValue value_of(const std::vector<std::string>& words) {
 
 void fill_upload(v1::Order& order, const std::string& file) {
   std::ifstream in(file, std::ios::binary);
-  if (!in) throw std::invalid_argument("cannot read '" + file + "'; name a file with the new content");
+  if (!in || std::filesystem::is_directory(file))
+    throw std::invalid_argument("cannot read '" + file + "'; name a file with the new content");
   const std::string content{std::istreambuf_iterator<char>(in), {}};
   order.upload().assign(content.begin(), content.end());
   order.checksum(bytes::crc_32(content));
@@ -141,7 +143,9 @@ int give_order(lib::Client& client, const OrderArguments& arguments, bool as_jso
   if (!last) {
     std::cerr << "roci: no executive"
               << (arguments.robot.empty() ? "" : " of robot '" + arguments.robot + "'") << " answered within "
-              << kAnswerLimit.count() / 1000 << " s; is the mission running there (roci status)?\n";
+              << kAnswerLimit.count() / 1000
+              << (client.view().mission() != nullptr ? kOnItsWay
+                                                     : " s; is the mission running there (roci status)?\n");
     return kNoMission;
   }
   if (last->stage() == v1::ORDER_REFUSED) return kRefused;

@@ -3,6 +3,8 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 #include "ground_console/cli/report.hpp"
 #include "ground_console/cli/verbs.hpp"
@@ -58,17 +60,35 @@ std::string place_text(double x, double y) { return "x=" + lib::value_text(x) + 
 
 }  // namespace
 
+std::string path_planner_of(const lib::MissionView& view, const ReachArguments& arguments) {
+  if (!arguments.service.empty()) return arguments.service;
+  std::vector<std::string> of_robot, all;
+  for (const auto& [planner, map] : view.maps()) {
+    all.push_back(planner);
+    if (!arguments.robot.empty() && map.header().robot() == arguments.robot) of_robot.push_back(planner);
+  }
+  const std::vector<std::string>& meant = of_robot.empty() ? all : of_robot;
+  if (meant.empty()) return "pathplan_svc";
+  if (meant.size() == 1) return meant.front();
+  std::string names;
+  for (const std::string& name : meant) names += (names.empty() ? "" : ", ") + name;
+  throw std::invalid_argument("there are several path planners; name one with --service: " + names);
+}
+
 int show_reach(lib::Client& client, const ReachArguments& arguments, bool as_json) {
   if (!client.wait_for_mission(kAnswerLimit)) {
     std::cerr << "roci: no mission answered; is it running there (roci status)?\n";
     return kNoMission;
   }
   const lib::Place from = start_of(client, arguments);
+  if (arguments.service.empty())
+    client.wait([&] { return !client.view().maps().empty(); }, std::chrono::milliseconds(2000));
+  client.catch_up();
+  const std::string service = path_planner_of(client.view(), arguments);
   std::string why;
-  const auto reply =
-      client.find_path(from, {arguments.x_m, arguments.y_m}, arguments.service, kAnswerLimit, why);
+  const auto reply = client.find_path(from, {arguments.x_m, arguments.y_m}, service, kAnswerLimit, why);
   if (!reply) {
-    std::cerr << "roci: " << arguments.service << " did not answer: " << why
+    std::cerr << "roci: " << service << " did not answer: " << why
               << "; is there a service of that name (roci status)?\n";
     return kNoMission;
   }

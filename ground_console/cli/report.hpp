@@ -26,6 +26,8 @@ std::string reason_of(const v1::GoalStatus& status);
 std::string details_of(const v1::GoalStatus& status);  ///< empty if there are none
 
 std::string goal_line(const v1::GoalStatus& status);
+/// Returns whether an answer refuses what was sent: a new goal, or a change of one, which stays as it was.
+bool is_refused(const v1::GoalStatus& answer);
 std::string event_line(const v1::Event& event);
 std::string status_text(const lib::MissionView& view, const MissionWords& words = {});
 

@@ -50,7 +50,7 @@ int no_mission(const lib::MissionView& view) {
     return kNoMission;
   }
   std::cerr << "roci: exec_svc did not answer within " << kAnswerLimit.count() / 1000
-            << " s; is the mission running there (roci status)?\n";
+            << (view.mission() != nullptr ? kOnItsWay : " s; is the mission running there (roci status)?\n");
   return kNoMission;
 }
 
@@ -67,7 +67,7 @@ void print_goal(const v1::GoalStatus& status, bool why, bool as_json) {
 int report_goal(const lib::MissionView& view, const std::optional<v1::GoalStatus>& status, bool as_json) {
   if (!status) return no_mission(view);
   print_goal(*status, false, as_json);
-  return status->goal_state() == v1::GOAL_REJECTED ? kRefused : kDone;
+  return is_refused(*status) ? kRefused : kDone;
 }
 
 // Prints each state that the goal comes to, until its last one.
@@ -103,19 +103,31 @@ int follow_goal(lib::Client& client, v1::GoalStatus status, const GoalArguments&
 
 }  // namespace
 
-int add_goal(lib::Client& client, const GoalArguments& arguments, bool as_json) {
+v1::Goal goal_of(const GoalArguments& arguments) {
   v1::Goal goal;
   goal.issuer(arguments.issuer);
   goal.id(arguments.id);
   goal.goal_kind(arguments.kind);
   goal.robot(arguments.robot);
-  for (const std::string& argument : arguments.arguments) goal.arguments().push_back(property_of(argument));
+  for (const std::string& argument : arguments.arguments) {
+    v1::Property property = property_of(argument);
+    for (const v1::Property& before : goal.arguments())
+      if (before.name() == property.name())
+        throw std::invalid_argument("argument '" + property.name() + "' is given twice, as '" +
+                                    before.value() + "' and as '" + property.value() + "'; leave one out");
+    goal.arguments().push_back(std::move(property));
+  }
   goal.importance(importance_of(arguments.importance));
   goal.utility(arguments.utility);
   goal.preferred_us(-1);
   goal.priority(arguments.priority);
   goal.opens_us(static_cast<std::int64_t>(arguments.opens_s * 1e6));
   goal.closes_us(static_cast<std::int64_t>(arguments.closes_s * 1e6));
+  return goal;
+}
+
+int add_goal(lib::Client& client, const GoalArguments& arguments, bool as_json) {
+  const v1::Goal goal = goal_of(arguments);
   const auto status = client.send_goal(goal, kAnswerLimit);
   const int code = report_goal(client.view(), status, as_json);
   return code == kDone && arguments.waits ? follow_goal(client, *status, arguments, as_json) : code;

@@ -43,6 +43,13 @@ struct GoalArguments {
 /// How long a verb waits for the mission's answer, in wall time.
 inline constexpr std::chrono::milliseconds kAnswerLimit{15000};
 
+/// Ends the sentence that somebody did not answer within so many seconds, where the mission itself is heard.
+inline constexpr char kOnItsWay[] =
+    " s, and the mission is heard: what was sent waits for the link to the robot if that is closed or slow "
+    "(docs/links.md), and counts when it arrives\n";
+
+/// Throws std::invalid_argument with the remedy where the arguments make no goal.
+v1::Goal goal_of(const GoalArguments& arguments);
 int add_goal(lib::Client& client, const GoalArguments& arguments, bool json);
 int cancel_goal(lib::Client& client, const std::string& issuer, const std::string& id, bool json);
 int list_goals(lib::Client& client, bool why, bool json);

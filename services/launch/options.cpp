@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <sstream>
 #include <stdexcept>
 
@@ -25,7 +26,7 @@ std::optional<double> parse_speed(const std::string& text) {
   } catch (const std::logic_error&) {
     used = 0;
   }
-  if (used != text.size() || !(speed > 0)) {
+  if (used != text.size() || !(speed > 0) || std::isinf(speed)) {
     throw std::invalid_argument("--speed " + text + ": give mission seconds per second, like 60, or max");
   }
   return speed;

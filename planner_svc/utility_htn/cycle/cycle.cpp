@@ -6,6 +6,7 @@
 
 #include "planner_svc/utility_htn/cycle/claims.hpp"
 #include "planner_svc/utility_htn/cycle/early_end.hpp"
+#include "planner_svc/utility_htn/model/describe.hpp"
 
 namespace roci::planner::utility_htn::cycle {
 
@@ -60,8 +61,8 @@ Link* Cycle::link(TaskId task) {
 std::string Cycle::set_value(model::ParameterIndex parameter, double value) {
   const model::Parameter& known = network_.parameters[parameter];
   if (!known.permits(value))
-    return known.name + " = " + std::to_string(value) + " is not between " + std::to_string(known.lowest) +
-           " and " + std::to_string(known.highest) + "; the value before stays";
+    return known.name + " = " + model::to_text(value) + " is not between " + model::to_text(known.lowest) +
+           " and " + model::to_text(known.highest) + "; the value before stays";
   if (past_.values[parameter] == value) return {};
   past_.values[parameter] = value;
   // What has not begun is placed anew: its starts are those of the value before.

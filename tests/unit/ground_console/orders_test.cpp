@@ -40,6 +40,13 @@ TEST(Orders, AValueIsATruthANumberOrAState) {
   EXPECT_THAT(order_of(set).content().arguments(), ElementsAre("wp-2"));
 }
 
+TEST(Orders, AFolderIsNoContentOfAnUpload) {
+  OrderArguments upload;
+  upload.kind = v1::ORDER_UPLOAD;
+  upload.file = std::filesystem::temp_directory_path().string();
+  EXPECT_THAT(complaint(upload), HasSubstr("name a file with the new content"));
+}
+
 TEST(Orders, ALevelIsOneOfFour) {
   OrderArguments autonomy;
   autonomy.kind = v1::ORDER_AUTONOMY;

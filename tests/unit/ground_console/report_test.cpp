@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "ground_console/cli/verbs.hpp"
 #include "tests/unit/ground_console/messages.hpp"
 
 namespace roci::console {
@@ -84,6 +85,25 @@ TEST(Lines, OfAGoalThatWasGivenUpHaveTheMissionsWordsAlone) {
   EXPECT_THAT(cli::goal_line(status), HasSubstr("out of reach: steep (journaled)"));
   EXPECT_EQ(cli::to_json(status)["reason"], "out of reach: steep");
   EXPECT_EQ(cli::to_json(status)["details"], "no sequence of actions");
+}
+
+// Scripts see by the exit code that a change was refused, whatever becomes of the goal as it was.
+TEST(Goals, AChangeThatWasRefusedCountsAsRefused) {
+  EXPECT_TRUE(cli::is_refused(goal_status("a", v1::GOAL_REJECTED, 1, "unknown kind")));
+  EXPECT_TRUE(cli::is_refused(goal_status("a", v1::GOAL_PLANNED, 1, "change refused: it is a photo")));
+  EXPECT_TRUE(cli::is_refused(goal_status("a", v1::GOAL_DROPPED, 1, "change refused: argument 'x' is 'y'")));
+  EXPECT_FALSE(cli::is_refused(goal_status("a", v1::GOAL_PENDING, 1, "changed by ground")));
+  EXPECT_FALSE(cli::is_refused(goal_status("a", v1::GOAL_DROPPED, 1, "out of reach")));
+}
+
+TEST(Goals, AnArgumentThatIsGivenTwiceIsRefused) {
+  cli::GoalArguments photo;
+  photo.arguments = {"x=110", "y=60"};
+  EXPECT_EQ(cli::goal_of(photo).arguments().size(), 2U);
+  photo.arguments.push_back("x=3");
+  EXPECT_THAT([&] { cli::goal_of(photo); },
+              ::testing::ThrowsMessage<std::invalid_argument>(
+                  "argument 'x' is given twice, as '110' and as '3'; leave one out"));
 }
 
 TEST(Lines, NameWhatMatters) {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "ground_console/cli/reach.hpp"
 #include "ground_console/cli/report.hpp"
 #include "ground_console/cli/watch/screen.hpp"
 #include "ground_console/lib/limits.hpp"
@@ -321,6 +322,23 @@ TEST(WatchScreen, OfTwoRoversKeepsWithinAnyTerminal) {
       const std::string screen = cli::watch::watch_screen(view, width, height).plain();
       EXPECT_LE(static_cast<std::size_t>(std::ranges::count(screen, '\n')), height);
     }
+}
+
+// The name of a path planner is the mission's affair, so that nobody has to know it to ask for a way.
+TEST(Reach, ThePathPlannerIsTheRobotsOwnOrTheOnlyOne) {
+  lib::MissionView view;
+  EXPECT_EQ(cli::path_planner_of(view, {}), "pathplan_svc") << "nothing is known";
+  view.take(known("scout", {}));
+  EXPECT_EQ(cli::path_planner_of(view, {}), "scout.path");
+  view.take(known("primary", {}));
+  cli::ReachArguments asked;
+  asked.robot = "primary";
+  EXPECT_EQ(cli::path_planner_of(view, asked), "primary.path");
+  asked.service = "mine";
+  EXPECT_EQ(cli::path_planner_of(view, asked), "mine");
+  EXPECT_THAT([&] { cli::path_planner_of(view, {}); },
+              ::testing::ThrowsMessage<std::invalid_argument>(
+                  "there are several path planners; name one with --service: primary.path, scout.path"));
 }
 
 }  // namespace

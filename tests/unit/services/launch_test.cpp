@@ -91,6 +91,11 @@ TEST_F(LaunchTest, WhatCannotBeSecureIsRefused) {
             folder / "vendor.xml");
 }
 
+TEST_F(LaunchTest, APaceIsAFiniteNumberAboveZero) {
+  for (const char* speed : {"0", "-1", "nan", "inf", "1e999", "fast", "2x"})
+    EXPECT_THROW(parse({"--speed", speed}), std::invalid_argument) << speed;
+}
+
 TEST_F(LaunchTest, OnlyTheMasterKnowsRosterAndPace) {
   const Options options = parse({"--speed", "max"});
   EXPECT_THAT(service_arguments(options, "sim_svc", 3, 0),
@@ -191,7 +196,8 @@ TEST_F(LaunchTest, WhatCannotBeResumedIsRefusedInWords) {
   };
   EXPECT_THAT(complaint(), HasSubstr("there is no launch.json of a run in it"));
   const std::vector<const char*> slip{"roci-launch", "--resume", "--run-folder", folder.c_str()};
-  EXPECT_THROW(parse_options(4, slip.data(), [](const char*) { return std::nullopt; }), std::invalid_argument);
+  EXPECT_THROW(parse_options(4, slip.data(), [](const char*) { return std::nullopt; }),
+               std::invalid_argument);
   Options options = parse({"--dds", "cyclonedds"});
   options.run_folder = folder;
   keep_command_line(options, clock::anchor_host(), 0);

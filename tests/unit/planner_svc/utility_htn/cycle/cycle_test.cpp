@@ -196,6 +196,12 @@ TEST_F(CycleTest, WhatIsLostToTheOrderOfBatchesIsNamedSo) {
                                  "planned before what now makes it possible")));
 }
 
+TEST_F(CycleTest, AValueOutOfItsRangeIsRefusedInNumbersThatOneCanRead) {
+  Cycle cycle = make();
+  const std::string refused = cycle.set_value(0, 1e30);
+  EXPECT_THAT(refused, AllOf(HasSubstr(" = 1e+30 is not between "), Not(HasSubstr("000000"))));
+}
+
 TEST_F(CycleTest, WhatHasBegunIsFinishedLaterWhenItsFirstLinkTakesLonger) {
   Cycle cycle = make();
   cycle.run(Time{0});
