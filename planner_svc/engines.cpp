@@ -25,7 +25,8 @@ const engine::Table& engines() {
         [](const engine::Setup&) { return std::make_unique<timeline_htn::adapter::TimelineResolver>(); },
         timeline_htn::search::resolver_names(),
         {},
-        timeline_htn::adapter::asked_functions}},
+        timeline_htn::adapter::asked_functions,
+        timeline_htn::adapter::check_model}},
       {"utility_htn",
        {engine::MakeStepped([](const engine::Setup& setup) {
           return std::make_unique<utility_htn::adapter::UtilityEngine>(

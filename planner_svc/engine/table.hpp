@@ -13,6 +13,10 @@
 #include "planner_svc/engine/decision_resolver.hpp"
 #include "planner_svc/engine/stepped_engine.hpp"
 
+namespace roci::mission {
+class Findings;
+}
+
 namespace roci::planner::engine {
 
 using MakeAnswering = std::function<std::unique_ptr<AnsweringEngine>()>;
@@ -43,6 +47,12 @@ struct TableEntry {
   /// be read asks for none.
   std::function<std::vector<AskedFunction>(const std::string& model, const std::string& name)>
       asked_functions{};
+  /// Notes, for an engine whose models come with each request, what is wrong with a model, each fault with its place.
+  /// Returns the timelines that its states are observed by, of which its plans tell; one that ends in '.' stands for
+  /// all that begin so. `model` and `name` are as above.
+  std::function<std::vector<std::string>(const std::string& model, const std::string& name,
+                                         mission::Findings& findings)>
+      check_model{};
 };
 
 /// Maps names, as mission.yaml and PlanRequest give them, to engines.

@@ -34,7 +34,7 @@ std::vector<std::string> CheckedMission::windows() const {
 KnownTimelines::KnownTimelines(const CheckedMission& mission, const CheckedExecutive& executive)
     : mission_(mission),
       robot_(executive.model.role.robot),
-      closed_(mission.closed && executive.model.has_domain()),
+      closed_(mission.closed && (executive.model.has_domain() || executive.planned_timelines)),
       names_(mission.world.timelines) {
   for (const SimulatedFamily& family : mission.world.families) prefixes_.push_back(family.prefix);
   for (const SimulatedComponent& component : mission.world.components)
@@ -44,6 +44,9 @@ KnownTimelines::KnownTimelines(const CheckedMission& mission, const CheckedExecu
     names_.push_back(component.timeline);
     prefixes_.push_back(component.timeline + ".");
   }
+  if (executive.planned_timelines)
+    for (const std::string& name : *executive.planned_timelines)
+      (name.ends_with('.') ? prefixes_ : names_).push_back(name);
   for (const std::string& window : mission.windows()) names_.push_back(window);
   for (const std::string& value : executive.model.ground.values) names_.push_back(value);
 }

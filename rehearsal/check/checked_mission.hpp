@@ -26,6 +26,8 @@ struct CheckedExecutive {
   std::string service;
   mission::Entry file;
   exec::mission::MissionModel model;
+  /// What plans of the model tell of, where its engine says so (planner::engine::TableEntry::check_model).
+  std::optional<std::vector<std::string>> planned_timelines{};
 };
 
 /// Holds a mission as far as it could be read.
@@ -56,7 +58,8 @@ class KnownTimelines {
  private:
   const CheckedMission& mission_;
   std::string robot_;
-  bool closed_ = false;  ///< all timelines are known: an engine that reads no PDDL has some of its own
+  bool closed_ =
+      false;  ///< all timelines are known: an engine may have some of its own of which it does not say
   std::vector<std::string> names_;
   std::vector<std::string> prefixes_;
 };

@@ -319,6 +319,21 @@ DryPlans dry_plan(const CheckedMission& mission, const CheckedExecutive& executi
   return out;
 }
 
+void check_engine_model(CheckedExecutive& executive, mission::Findings& findings) {
+  const auto engine = planner::engines().find(executive.model.planner.engine);
+  const auto model = executive.file.find("model");
+  if (engine == planner::engines().end() || !engine->second.check_model || !model) return;
+  if (executive.model.model_text.empty()) return;  // it could not be read, which is known by now
+  const std::filesystem::path file = model->resolve(model->text());
+  mission::Findings found;
+  auto timelines = engine->second.check_model(executive.model.model_text, file.filename(), found);
+  for (mission::Finding one : found.all()) {
+    one.file = (file.parent_path() / one.file).string();
+    findings.add(std::move(one));
+  }
+  if (found.errors() == 0) executive.planned_timelines = std::move(timelines);
+}
+
 void check_functions(const CheckedMission& mission, const CheckedExecutive& executive, AskedOwners& owners,
                      mission::Findings& findings) {
   const std::vector<AskedName> asked =

@@ -49,6 +49,10 @@ struct DryPlans {
 DryPlans dry_plan(const CheckedMission& mission, const CheckedExecutive& executive, AskedOwners& owners,
                   mission::Findings& findings);
 
+/// Notes what is wrong with the model of an engine whose models come with each request, which no service would read
+/// before the first one, and keeps in `executive` of which timelines its plans tell.
+void check_engine_model(CheckedExecutive& executive, mission::Findings& findings);
+
 /// Finds modules and external functions of the domain, or of a model in the engine's own language, that no service of
 /// the mission offers. Where programs of the mission's own could offer them, only names that are nearly an offered one
 /// are findings.

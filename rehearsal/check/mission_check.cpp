@@ -229,6 +229,7 @@ CheckReport check_mission(const std::filesystem::path& folder, const std::string
     mission.world = simulated_world(mission.scenarios.front().run, simulators.front()->name);
   read_executives(mission, out.findings);
   note_warnings(mission, out.findings);
+  for (CheckedExecutive& executive : mission.executives) check_engine_model(executive, out.findings);
   check_names(mission, out.findings);
   if (out.findings.errors() == 0) plan_goals(mission, out.scenarios, out);
   return out;

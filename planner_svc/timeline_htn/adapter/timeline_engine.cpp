@@ -139,4 +139,17 @@ std::vector<engine::AskedFunction> asked_functions(const std::string& model, con
   return out;
 }
 
+std::vector<std::string> check_model(const std::string& model, const std::string& name,
+                                     mission::Findings& findings) {
+  std::vector<std::string> out;
+  const auto read = reading::parse_model({{name, model}}, findings, reading::Problem::of_a_request);
+  if (!read) return out;
+  for (const model::Component& component : read->components)
+    for (const model::State& state : component.states)
+      if (state.observed) out.push_back(state.observed->timeline);
+  for (const model::Relation& relation : read->relations)
+    if (!relation.timeline.empty()) out.push_back(relation.timeline + ".");
+  return out;
+}
+
 }  // namespace roci::planner::timeline_htn::adapter

@@ -34,4 +34,8 @@ class TimelineEngine final : public engine::AnsweringEngine {
 /// Returns whom a model asks for its tables (engine::TableEntry::asked_functions).
 std::vector<engine::AskedFunction> asked_functions(const std::string& model, const std::string& name);
 
+/// Notes what is wrong with a model and returns the timelines of its states (engine::TableEntry::check_model).
+std::vector<std::string> check_model(const std::string& model, const std::string& name,
+                                     mission::Findings& findings);
+
 }  // namespace roci::planner::timeline_htn::adapter

@@ -197,6 +197,30 @@ INSTANTIATE_TEST_SUITE_P(
                            "kind: haul, robot: huler, importance: optional",
                            "no executive commands robot 'huler'", "hauler"}));
 
+// The planner reads such a model with the first request alone: until then nobody would say what is wrong with it.
+class PorterSlip : public ::testing::TestWithParam<Slip> {};
+
+TEST_P(PorterSlip, IsTheOneFinding) { expect_found(ROCI_SOURCE_DIR "/tests/missions/porter", GetParam()); }
+
+INSTANTIATE_TEST_SUITE_P(
+    Models, PorterSlip,
+    ::testing::Values(Slip{"porter.yaml", "needs: [during base.at(place)]", "needs: [during bsae.at(place)]",
+                           "unknown component 'bsae'", "did you mean 'base'?"},
+                      Slip{"porter.yaml", "where: [\"path(from, to)\"]", "where: [\"paht(from, to)\"]",
+                           "'paht'", "did you mean 'path'?"},
+                      Slip{kMission, "timeline: errand, is", "timeline: erand, is",
+                           "nobody tells of a timeline 'erand'", "did you mean 'errand'?"}));
+
+// A goal of a state that no timeline shows would be planned and carried out again and again.
+TEST(MissionCheck, AGoalWhoseStateNobodySeesIsFound) {
+  const CopiedMission copy(ROCI_SOURCE_DIR "/tests/missions/porter");
+  for (const char* kind : {"idle: {kind: default", "fetching: {kind: complex, parameters: {crate: crate}",
+                           "fetched: {kind: default, parameters: {crate: crate}"})
+    copy.edit("porter.yaml", kind + std::string(", observed: {timeline: errand}"), kind);
+  EXPECT_THAT(printed(check_mission(copy.folder())),
+              ElementsAre(HasSubstr("nobody tells of a timeline 'errand'")));
+}
+
 TEST(MissionCheck, AllFindingsAreListedInTheOrderOfTheFiles) {
   const CopiedMission copy(kPlanetary);
   copy.edit(kMission, "fallback: stop", "fallback: sotp");
