@@ -76,7 +76,7 @@ void check_parameters(Complaints& complaints) {
 void check_cycle(Complaints& complaints) {
   using temporal::to_text;
   const CycleWindows& cycle = complaints.network.cycle;
-  complaints.about(Part::network, 0);
+  complaints.about(Part::network, kCycleOfNetwork);
   if (cycle.worst_cycle <= temporal::Duration{0})
     complaints.error("its worst cycle is not above 0", "write what was measured");
   if (cycle.process_interval <= cycle.worst_cycle)
@@ -103,7 +103,7 @@ void check_cycle(Complaints& complaints) {
 void check_subway(Complaints& complaints) {
   const Network& network = complaints.network;
   const SubwayMap& map = network.subway;
-  complaints.about(Part::network, 0);
+  complaints.about(Part::network, kSubwayOfNetwork);
   if (map.sites.empty()) return;
   if (map.rank >= network.ranks.size())
     complaints.error("its subway map is enforced at a rank that is not there", "name one of its ranks");

@@ -13,10 +13,14 @@ namespace roci::planner::utility_htn::model {
 /// Says which list of the network a fault lies in.
 enum class Part { network, parameter, timeline, task, site };
 
+/// Numbers the things of Part::network that have a place of their own; 0 is the network as a whole.
+inline constexpr std::uint32_t kCycleOfNetwork = 1;
+inline constexpr std::uint32_t kSubwayOfNetwork = 2;
+
 /// Describes one fault with its place in the network and its remedy.
 struct Fault {
   Part part = Part::network;
-  std::uint32_t index = 0;  ///< in the list of that part
+  std::uint32_t index = 0;  ///< in the list of that part; of a network as above
   bool warning = false;     ///< the network can be used, but it can hardly be meant so
   std::string what;
   std::string remedy;  ///< may be empty

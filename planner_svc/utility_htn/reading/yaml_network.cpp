@@ -284,6 +284,7 @@ class YamlReader {
 
   void read_cycle() {
     const Source cycle = needed("cycle");
+    note(Part::network, model::kCycleOfNetwork, cycle);
     cycle.entry().allow_only(
         {"process_interval_s", "worst_cycle_s", "commit_window_s", "scheduling_window_s", "plan_end_s"});
     network_.cycle.process_interval = cycle.at("process_interval_s").seconds();
@@ -298,6 +299,7 @@ class YamlReader {
     const auto subway = single("subway");
     if (!subway) return;
     subway->entry().allow_only({"most_samples", "rank", "sites"});
+    note(Part::network, model::kSubwayOfNetwork, *subway);
     if (const auto most = subway->find("most_samples"))
       network_.subway.most_samples =
           static_cast<std::uint32_t>(most->count(std::numeric_limits<std::uint32_t>::max()));

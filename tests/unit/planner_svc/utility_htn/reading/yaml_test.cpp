@@ -151,6 +151,15 @@ TEST_F(NetworkFiles, WhatTheCheckFindsStandsAtItsTask) {
   }
 }
 
+TEST_F(NetworkFiles, WhatTheCheckFindsOfTheCycleStandsThere) {
+  const auto file = write("network.yaml", with(kSound, "commit_window_s: 20", "commit_window_s: 9"));
+  mission::Findings findings;
+  EXPECT_FALSE(load_network(file, findings));
+  ASSERT_EQ(findings.size(), 1U);
+  EXPECT_THAT(findings.all()[0].text(),
+              HasSubstr("network.yaml:7:8: network 'lander': its commit window of 9 s is shorter"));
+}
+
 TEST_F(NetworkFiles, TheExampleOfTheDocumentationIsUsable) {
   std::ifstream in(ROCI_SOURCE_DIR "/docs/network-format.md");
   const std::string page{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
