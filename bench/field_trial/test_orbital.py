@@ -77,6 +77,7 @@ class DropOrder(unittest.TestCase):
         goals = [
             GoalEnd("watch/radio", "radio", "optional", 5, "dropped", reason, {"module": "radio-1"}),
             GoalEnd("ground/mode", "mode", "optional", 5, "dropped", reason, {"mode": "survey"}),
+            GoalEnd("ground/camera", "camera", "optional", 5, "dropped", reason, {"module": "camera-1", "slot": "s8"}),
             GoalEnd("orbiter/n", "n", "opportunistic", 1, "achieved", "seen", {"module": "power-3", "slot": "s2"}),
         ]
         return Flight(1, Path(), goals=goals, events=[(1, "goal.accepted", f"goal {goal.key} accepted") for goal in goals])
@@ -91,6 +92,7 @@ class DropOrder(unittest.TestCase):
         moded = "(forall (?r - role ?s - socket) (imply (needs survey ?r ?s) (exists (?m - module) (installed ?m ?s))))"
         self.assertEqual(self.faults_when("watch/radio", replaced), [])
         self.assertEqual(self.faults_when("ground/mode", moded), [])
+        self.assertEqual(self.faults_when("ground/camera", "(works camera-1)"), [])
 
     def test_what_no_proof_names_waits_for_its_turn(self):
         self.assertEqual(len(self.faults_when("ground/mode", "(installed power-3 s2)")), 1)

@@ -42,7 +42,8 @@ def planetary_fact(goal: GoalEnd) -> str:
 
 def orbital_fact(goal: GoalEnd) -> str:
     if "slot" in goal.arguments:
-        return re.escape(f"(installed {goal.arguments['module']} {goal.arguments['slot']})")
+        module = re.escape(goal.arguments["module"])
+        return rf"\((installed {module} {re.escape(goal.arguments['slot'])}|works {module})\)"
     if "module" in goal.arguments:  # conditions that no fact stands for, by what mission.yaml says of them
         return re.escape(f"(seat {goal.arguments['module']} ?s)")
     return re.escape(f"(needs {goal.arguments['mode']} ?r ?s)")
