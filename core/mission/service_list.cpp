@@ -158,11 +158,11 @@ ServiceList read_service_list(const Entry& mission) {
 }
 
 ServiceList load_service_list(const std::filesystem::path& mission_folder) {
-  return read_service_list(load_mission_file(mission_folder / kMissionFile));
+  return read_service_list(load_mission_file(mission_folder));
 }
 
 ServiceList load_service_list_if_any(const std::filesystem::path& mission_folder) {
-  const Entry mission = load_mission_file(mission_folder / kMissionFile);
+  const Entry mission = load_mission_file(mission_folder);
   return mission.find("services") ? read_service_list(mission) : ServiceList{};
 }
 

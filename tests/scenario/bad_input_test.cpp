@@ -185,6 +185,7 @@ TEST(BadCommandLine, NamesWhatWasMistyped) {
       {"roci-launch nowhere", "no mission \"nowhere\": give a folder with a mission.yaml"},
       {"roci-rehearse nowhere", "no mission \"nowhere\": give a folder with a mission.yaml"},
       {"roci-keys make", "mission is required"},
+      {"roci-keys make nowhere", "roci-keys: nowhere/mission.yaml: cannot be read"},
       {"roci-site --side 100", "--out is required"}};
   for (const auto& [line, words] : slips) {
     const Ended ended = run("timeout 20 " + line + " 2>&1");
