@@ -70,8 +70,8 @@ class Journal {
   /// Opens or creates the file. Throws JournalError naming the file when it is not a journal or cannot be
   /// written.
   Journal(const std::filesystem::path& file, Durability durability);
-  /// Opens a journal to read it alone: nothing that stands in the file changes. Throws JournalError naming the file when
-  /// it is not a journal.
+  /// Opens a journal to read it alone: nothing that stands in the file changes. Throws JournalError naming the file
+  /// when it is not a journal.
   explicit Journal(const std::filesystem::path& file);
   ~Journal();
 

@@ -192,7 +192,8 @@ std::string goal_line(const v1::GoalStatus& status) {
                    (status.reason().empty() ? "(" : " (") + lib::name_of(status.ack_stage()) + ")");
 }
 
-// The wire has no word for a refused change, whose goal keeps its state: the executive says it at the head of the reason.
+// The wire has no word for a refused change, whose goal keeps its state: the executive says it at the head of the
+// reason.
 bool is_refused(const v1::GoalStatus& answer) {
   return answer.goal_state() == v1::GOAL_REJECTED || answer.reason().starts_with("change refused: ");
 }

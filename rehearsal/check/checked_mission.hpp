@@ -58,8 +58,8 @@ class KnownTimelines {
  private:
   const CheckedMission& mission_;
   std::string robot_;
-  bool closed_ =
-      false;  ///< all timelines are known: an engine may have some of its own of which it does not say
+  /// Whether all timelines are known: an engine may have some of its own of which it does not say.
+  bool closed_ = false;
   std::vector<std::string> names_;
   std::vector<std::string> prefixes_;
 };
