@@ -39,8 +39,9 @@ class CommanderLeases {
 
   /// Bounds a lease beyond its newest renewal.
   static constexpr Moment kLongestTerm = std::chrono::seconds(60);
-  /// Bounds the commanders that have a lease; others get none. As many are remembered that led: where one more asks, that
-  /// is forgotten which has asked least recently and holds no lease, so that invented names keep nobody out for good.
+  /// Bounds the commanders that have a lease; others get none. As many are remembered that led: where one more asks,
+  /// that is forgotten which has asked least recently and holds no lease, so that invented names keep nobody out for
+  /// good.
   static constexpr std::size_t kCommanders = 64;
 
   /// Takes a request in and returns who holds the lease now. `newest_epoch` is the newest in which the commander has

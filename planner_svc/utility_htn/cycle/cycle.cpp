@@ -233,8 +233,8 @@ bool Cycle::lasts_later(const Block& of, std::size_t link, Duration takes, Time 
 }
 
 // Data that turned out larger or smaller than foreseen make planned downlinks longer or shorter (R127). One that would
-// outlast its view of Earth is moved by repair if all of it has room in a later one; else what does not go with it waits
-// for another downlink.
+// outlast its view of Earth is moved by repair if all of it has room in a later one; else what does not go with it
+// waits for another downlink.
 void Cycle::fit_downlinks(Time now) {
   if (delivery_ == nullptr) return;
   sessions_.look(blocks_, *delivery_);
