@@ -45,7 +45,7 @@ class OrbitalSlips : public ::testing::TestWithParam<const char*> {
 };
 
 TEST_P(OrbitalSlips, AnUnknownSlotAndTwoModulesInOneAreToldAndTheMissionGoesOn) {
-  edit(folder_ / "mission/mission.yaml", "work: 80000", "work: 3000");
+  edit(folder_ / "mission/mission.yaml", "work: 70000", "work: 3000");
   const Flight flight = fly_with(
       "  - {at_s: 10, goal: {issuer: ground, id: spare, kind: install, importance: hard, "
       "arguments: {module: power-3, slot: s3}}}\n"
