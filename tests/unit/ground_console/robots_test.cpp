@@ -312,6 +312,27 @@ Repairs   scout.locomotion repairs p1.1-scout since 00:02:05, 20 % of the time u
 
 Events
 
+
+
+
+
+
+
+
+
+
+
+
+
+
+
+
+
+
+
+
+
+
 )");
 }
 

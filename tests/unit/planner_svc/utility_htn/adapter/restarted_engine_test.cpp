@@ -117,7 +117,7 @@ TEST(RestartedEngine, GivesNoNumberOfABlockAgain) {
       EXPECT_FALSE(used.contains(activity.id)) << activity.id;
       ++added;
     }
-    EXPECT_GT(added, 3);
+    EXPECT_GE(added, 3);
   }
 }
 
