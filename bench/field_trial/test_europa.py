@@ -192,6 +192,16 @@ class Utility(unittest.TestCase):
                          {"sample lost before its analysis: no-sample", "site not opened: too-hard",
                           "site not reached: it waits for one that gives no sample", "mandatory data left-behind at the end"})
 
+    def test_a_site_is_used_up_by_samples_whose_analysis_had_no_effect(self):
+        folder = Folder()
+        for target in range(3):
+            folder.deed(5 + target, "collect", f"1 {target}")
+            folder.deed(6 + target, "analyze", f"1_{target}")
+        folder.observe(8, "lander.signature.1_1", "positive")
+        folder.deed(20, "collect", "0 0")
+        folder.deed(21, "analyze", "0_0")
+        self.assertEqual([fault for fault in folder.flight().faults if "was open" in fault], [])
+
     def test_products_that_a_kill_lost(self):
         calm, killed = Folder(), Folder()
         calm.product("workspace", "decisional", "received")
