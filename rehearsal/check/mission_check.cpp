@@ -9,7 +9,9 @@
 #include "core/mission/mission_file.hpp"
 #include "core/mission/scenario.hpp"
 #include "core/pddl/ast.hpp"
+#include "core/temporal/value.hpp"
 #include "core/words/nearest_word.hpp"
+#include "planner_svc/settings.hpp"
 #include "rehearsal/check/action_check.hpp"
 #include "rehearsal/check/component_check.hpp"
 #include "rehearsal/check/goal_kind_check.hpp"
@@ -171,8 +173,31 @@ void check_watch(const CheckedMission& mission) {
   });
 }
 
+// An answer that comes later than it is waited for is lost, and a robot that has lost all of them waits for the ground.
+void check_reply_time(const CheckedExecutive& executive) {
+  const auto& planner = executive.model.planner;
+  const auto entry = executive.file.find("planner");
+  const auto budget = entry ? entry->find("budget") : std::nullopt;
+  if (!budget || executive.model.executive.plans_continuously()) return;
+  const planner::Settings defaults;
+  const auto simulated = entry->find("simulated");
+  const auto of = [&](const char* name, double otherwise) {
+    return simulated ? simulated->number_or(name, otherwise) : otherwise;
+  };
+  const double longest_s =
+      of("base_s", defaults.simulated_base_s) +
+      static_cast<double>(planner.work) * of("per_evaluation_s", defaults.simulated_per_evaluation_s);
+  const double waits_s = temporal::to_seconds(planner.reply_timeout);
+  if (longest_s < waits_s) return;
+  const auto told = [](double seconds) { return temporal::to_text(temporal::Value{seconds}) + " s"; };
+  budget->complain("a call that spends it takes " + told(longest_s) +
+                   " of simulated time, and an answer is waited for " + told(waits_s) +
+                   "; give less work, or a longer reply_timeout_s to 'planner'");
+}
+
 void check_names(const CheckedMission& mission, Findings& findings) {
   for (const CheckedExecutive& executive : mission.executives) {
+    note(findings, [&] { check_reply_time(executive); });
     note(findings, [&] { check_components(mission, executive); });
     note(findings, [&] { check_actions(mission, executive); });
     note(findings, [&] { check_goal_kinds(mission, executive); });

@@ -72,6 +72,8 @@ INSTANTIATE_TEST_SUITE_P(
              "'arm' asks 'arm_scv' for its motions", "did you mean 'arm_svc'?"},
         Slip{kMission, "engine: temporal_pddl", "engine: temporal_pdl",
              "no planner has an engine 'temporal_pdl'", "did you mean 'temporal_pddl'?"},
+        Slip{kMission, "work: 4000", "work: 400000", "a call that spends it takes",
+             "a longer reply_timeout_s"},
         Slip{kMission, "work: 4000", "work: -4000", "a budget cannot be -4000", "write a number from 0"},
         Slip{kMission, "(camera-idle)", "(camera-idel)", "no predicate 'camera-idel'",
              "did you mean 'camera-idle'?"},
