@@ -46,7 +46,8 @@ StepOutput UtilityEngine::step(const StepInputs& inputs) {
 }
 
 void UtilityEngine::run_cycle(const StepInputs& inputs, StepOutput& out) {
-  // No plan is executed that would tell which numbers another process of this run has used; far fewer than these.
+  // Where no plan is executed, none tells which numbers another process of this run has used. A version brings far
+  // fewer blocks than these.
   if (!goes_on_)
     planned_.cycle().number_beyond(std::min(inputs.last_version, kMostVersions) * kBlocksOfAVersion);
   const bool lost = published_.give_up();  // for a whole interval nobody has answered

@@ -102,12 +102,12 @@ void skip_numbers(int domain) {
   constexpr int kGapsOfRound = 5;
   Participant first(kLoopback, domain, kEprosima, 1, transport::own_announcement());
   Participant second(kLoopback, domain, kEclipse, 2, transport::own_announcement());
+  for (Participant* participant : {&first, &second})
+    participant->add_writer(
+        {topics::goal.name, topics::goal.type_name, true, transport::partitions_of(topics::goal.scope, "")});
   std::int64_t next = 2;
   for (int round = 0; wait_a_moment(); ++round) {
     for (Participant* participant : {&first, &second}) {
-      if (round == 0)
-        participant->add_writer({topics::goal.name, topics::goal.type_name, true,
-                                 transport::partitions_of(topics::goal.scope, "")});
       participant->announce();
       for (int i = 0; i < kGapsOfRound; ++i)
         participant->send_to_readers(participant->message().gap(0, writer_id(0, true), next + i * kAtOnce,

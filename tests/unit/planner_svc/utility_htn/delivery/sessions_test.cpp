@@ -67,17 +67,13 @@ class LongSessions : public DeliveryTest {
     cycle_->ended(cycle::task_id(number("sample"), 0), 130s, true);
     cycle_->begun(cycle::task_id(number("sample"), 1), 130s);
   }
-  temporal::Duration session() const {
+  const cycle::Link& sending() const {
     for (const cycle::Block& one : cycle_->blocks())
-      if (chains_.chains[one.chain].task == task_named(network_, "sample"))
-        return one.links.back().end - one.links.back().start;
+      if (chains_.chains[one.chain].task == task_named(network_, "sample")) return one.links.back();
     throw std::logic_error("no sample is planned");
   }
-  Time sent_at() const {
-    for (const cycle::Block& one : cycle_->blocks())
-      if (chains_.chains[one.chain].task == task_named(network_, "sample")) return one.links.back().start;
-    throw std::logic_error("no sample is planned");
-  }
+  temporal::Duration session() const { return sending().end - sending().start; }
+  Time sent_at() const { return sending().start; }
 
  private:
   temporal::timelines::Index earth_ = 0;
