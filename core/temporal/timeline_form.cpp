@@ -55,7 +55,9 @@ std::vector<std::string> timeline_faults(const FlexiblePlan& plan, Duration hori
   for (const Token& token : plan.tokens) timelines[token.timeline].push_back(&token);
   std::vector<std::string> faults;
   for (const auto& [name, tokens] : timelines) {
-    const auto fault = [&](const std::string& what) { faults.push_back("timeline " + name + ": " + what); };
+    const auto fault = [&faults, &name = name](const std::string& what) {
+      faults.push_back("timeline " + name + ": " + what);
+    };
     const Token& first = *tokens.front();
     if (!network.same_time(origin_point, first.start_point))
       fault("its first value, " + in_words(first) + ", begins in " +

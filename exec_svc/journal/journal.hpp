@@ -108,7 +108,9 @@ class Journal {
   void apply(const Batch& batch);
   /// serialized() returns the whole journal up to the last commit, position included, as the bytes of its
   /// file; replace_with() replaces this journal by such bytes. It throws JournalError when they are not a
-  /// journal; nothing has changed then.
+  /// journal, and DiskError when the disk does not take them; nothing has changed then. Where the disk lets the new
+  /// journal not be opened once it is in place it throws std::runtime_error: this object is of no more use, and
+  /// whoever opens the file anew has the new one.
   std::string serialized() const;
   void replace_with(std::string_view serialized);
 

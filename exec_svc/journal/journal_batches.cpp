@@ -21,13 +21,15 @@ std::string position_text(const Position& position) {
   return std::to_string(position.epoch) + ":" + std::to_string(position.sequence);
 }
 
-// Throws JournalError if the file is not a whole journal.
+// Throws JournalError if the file is not a whole journal, DiskError where the disk does not let it be told.
 void check(const fs::path& file) {
   std::string verdict;
   try {
     Journal::Database database(file, Durability::process);
     Statement row(database, "PRAGMA quick_check");
     verdict = row.row() ? row.text(0) : "empty";
+  } catch (const DiskError&) {
+    throw;
   } catch (const JournalError& error) {
     verdict = error.what();
   }
@@ -37,7 +39,18 @@ void check(const fs::path& file) {
 void write(const fs::path& file, std::string_view bytes) {
   std::ofstream out(file, std::ios::binary | std::ios::trunc);
   out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  if (!out.flush()) throw JournalError("cannot write " + file.string());
+  if (!out.flush()) throw DiskError("cannot write " + file.string());
+}
+
+// The database that was there is gone, so there is nothing to go on with; whoever starts again waits for its disk.
+std::unique_ptr<Journal::Database> open_replacement(const fs::path& file, Durability durability) {
+  try {
+    return std::make_unique<Journal::Database>(file, durability);
+  } catch (const DiskError& error) {
+    throw std::runtime_error(
+        "the leader's journal has taken the place of this one and cannot be opened yet: " +
+        std::string(error.what()));
+  }
 }
 
 }  // namespace
@@ -108,8 +121,8 @@ void Journal::replace_with(std::string_view whole) {
   if (whole.empty()) throw JournalError("what came is not a whole journal: it is empty");
   const fs::path arrived = fs::path(file_).concat(".arrived");
   remove_database(arrived);
-  write(arrived, whole);
   try {
+    write(arrived, whole);
     check(arrived);
   } catch (const JournalError&) {
     remove_database(arrived);
@@ -122,7 +135,7 @@ void Journal::replace_with(std::string_view whole) {
   database_.reset();
   remove_database_logs(file_);  // they belong to the database that goes
   put_in_place(arrived, file_, durability_);
-  database_ = std::make_unique<Database>(file_, durability_);
+  database_ = open_replacement(file_, durability_);
   database_->disk_wait = std::move(disk_wait);
   if (mark) database_->mark.emplace(std::move(*mark));
   database_->note_extent();

@@ -99,7 +99,7 @@ void FollowerService::tell_unwritten() {
   const std::uint64_t times = refusals_.note("disk");
   if (times == 0) return;
   const std::string text =
-      "the goals of the standby's own journal cannot be kept, so the leader's does not take its place yet (" +
+      "the standby's disk does not take the leader's journal or the goals of its own, which stays (" +
       std::to_string(times) + " times so far); make room on the disk";
   services::log::error(text);
   events_.write(services::node::make_event(v1::SEVERITY_ERROR, "journal.waiting", text));

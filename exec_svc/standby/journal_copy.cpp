@@ -56,6 +56,8 @@ JournalCopy::Result JournalCopy::take_part(const Chunk& chunk) {
   }
   try {
     journal_->replace_with(whole);
+  } catch (const DiskError&) {
+    return Result::unwritten;
   } catch (const JournalError&) {
     return Result::corrupt;
   }

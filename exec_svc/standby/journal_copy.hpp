@@ -35,7 +35,7 @@ class JournalCopy {
     corrupt,  ///< refused
     excess,  ///< more than there is room for, or than was announced: refused, and all of that journal forgotten
     old,     ///< its leader's epoch is over; refused
-    unwritten,  ///< complete, but the disk does not take what is to be kept of the journal it replaces: wanted again
+    unwritten,  ///< complete, but the disk does not take it, or what is to be kept of the journal it replaces
   };
   /// Takes a chunk; `epoch` is the latest that the follower knows of.
   Result take(const Chunk& chunk, std::uint64_t epoch);

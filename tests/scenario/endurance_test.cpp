@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "exec_svc/journal/journal.hpp"
 #include "services/process/domain_claim.hpp"
 #include "tests/scenario/effects.hpp"
 #include "tests/scenario/flight.hpp"
@@ -127,24 +128,61 @@ constexpr char kFaketime[] = ROCI_FAKETIME;
 constexpr char kFaketime[] = "";  // it is not installed
 #endif
 
+// What follows runs under a clock that is set by the file `time`.
+class ClocksThatAreSet : public Endurance {
+ protected:
+  void SetUp() override {
+    if (*kFaketime == '\0')
+      GTEST_SKIP() << "there is no libfaketime, by which a clock could be set (apt-get install faketime)";
+  }
+  std::string set_to(const std::string& offset) const {
+    return "echo " + offset + " > " + set_by + ".new; mv " + set_by + ".new " + set_by + "; ";
+  }
+  // Runs a launcher under that clock; what it prints is appended to `out`.
+  std::string under_it(const std::string& launcher) const {
+    return "timeout 280 env LD_PRELOAD=" + std::string(kFaketime) + " FAKETIME_TIMESTAMP_FILE=" + set_by +
+           " FAKETIME_NO_CACHE=1 FAKETIME_DONT_FAKE_MONOTONIC=1 DONT_FAKE_MONOTONIC=1 " + launcher + " >> " +
+           out + " 2>&1 ";
+  }
+
+  const std::string set_by = (folder / "time").string(), out = (folder / "out").string();
+  const std::string log = (run_folder / "journal.sqlite-wal").string();
+};
+
 // The system clock is set back by an hour, and later forward by more, while the mission flies.
-TEST_F(Endurance, ASystemClockThatIsSetChangesNothing) {
-  if (*kFaketime == '\0')
-    GTEST_SKIP() << "there is no libfaketime, by which a clock could be set (apt-get install faketime)";
-  const std::string set_by = (folder / "time").string();
-  const Ended ended = run(
-      waiting() + "echo +0 > " + set_by + "; (timeout 280 env LD_PRELOAD=" + kFaketime +
-      " FAKETIME_TIMESTAMP_FILE=" + set_by +
-      " FAKETIME_NO_CACHE=1 FAKETIME_DONT_FAKE_MONOTONIC=1 DONT_FAKE_MONOTONIC=1 " + launch(kPlanetary, "") +
-      "; echo $? > " + (folder / "code").string() + ") > " + (folder / "out").string() +
-      " 2>&1 & until_it_says " + (run_folder / "journal.sqlite-wal").string() + " plan.adopted; echo -1h > " +
-      set_by + ".new; mv " + set_by + ".new " + set_by + "; until_it_says " + (folder / "out").string() +
-      " clock.set; echo +300 > " + set_by + ".new; mv " + set_by + ".new " + set_by + "; wait; cat " +
-      (folder / "out").string() + "; exit $(cat " + (folder / "code").string() + ")");
+TEST_F(ClocksThatAreSet, InFlightChangeNothing) {
+  const Ended ended =
+      run(waiting() + set_to("+0") + under_it(launch(kPlanetary, "")) + "& pid=$!; until_it_says " + log +
+          " plan.adopted; " + set_to("-1h") + "until_it_says " + out + " clock.set; " + set_to("+300") +
+          "wait $pid; code=$?; cat " + out + "; exit $code");
   expect_achieved(ended);
   EXPECT_THAT(ended.output, AllOf(HasSubstr("clock.set: the system clock of this host was set back by 36"),
                                   HasSubstr("set forward by 39"), Not(HasSubstr("was lost: hung"))));
   EXPECT_LT(last_line_as_json(ended.output).value("wall_s", 1e9), 280);
+}
+
+// The executive dies after the clock was set back by an hour, which is 30 hours of this mission; later, with the clock
+// set forward, the launcher does. Whoever comes after them counts mission time on from the same anchor.
+TEST_F(ClocksThatAreSet, ChangeNothingForWhatIsStartedAgain) {
+  const Ended ended =
+      run(waiting() + set_to("+0") + under_it(launch(kPlanetary, "")) + "& pid=$!; until_it_says " + log +
+          " plan.adopted; launcher=$(pgrep -P $pid); " + set_to("-1h") + "until_it_says " + out +
+          " clock.set; kill -9 $(pgrep -P $launcher exec_svc); until_it_says " + log +
+          " executive.resumed; until_it_says " + log + " goal.achieved; " + set_to("+300") +
+          "kill -9 $launcher; wait; " + under_it("roci-launch --resume " + run_folder.string() + " --json") +
+          "; code=$?; cat " + out + "; exit $code");
+  expect_achieved(ended);
+  EXPECT_THAT(ended.output, Not(HasSubstr("was lost: hung")));
+  std::vector<double> resumed;
+  exec::journal::Journal(run_folder / "journal.sqlite", exec::journal::Durability::process)
+      .for_each([&](temporal::Time at, std::string_view kind, std::string_view text) {
+        if (kind == "event" && text.starts_with("executive.resumed"))
+          resumed.push_back(temporal::to_seconds(at));
+      });
+  ASSERT_EQ(resumed.size(), 2U) << ended.output;
+  EXPECT_GT(resumed[0], 0);
+  EXPECT_GT(resumed[1], resumed[0]);
+  EXPECT_LT(resumed[1], 8400) << "a launcher that had anchored anew would be 9,000 s further";
 }
 
 // The launcher is killed, and with it every service; another one goes on with the run.

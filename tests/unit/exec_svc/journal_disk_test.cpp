@@ -10,6 +10,7 @@
 #include "exec_svc/journal/journal.hpp"
 #include "tests/unit/core/durable/full_disk.hpp"
 #include "tests/unit/exec_svc/planetary_fixture.hpp"
+#include "tests/unit/exec_svc/refused_writes.hpp"
 
 namespace roci::exec {
 
@@ -109,6 +110,57 @@ TEST_F(JournalDisk, ABatchForTheFollowerIsMadeOnceAndOnlyOfWhatWasWritten) {
     EXPECT_EQ(records(copy), records(journal));
   }
   journal::remove_database(copied);
+}
+
+TEST_F(JournalDisk, AWholeJournalThatTheDiskDoesNotTakeReplacesNothing) {
+  const fs::path leaders = fs::path(file).concat(".leader"), arrived = fs::path(file).concat(".arrived");
+  Journal leader(leaders, Durability::process), journal(file, Durability::process);
+  leader.append_bytes(seconds(1), "input", std::string(100'000, 'x'));
+  leader.commit();
+  put(journal, "ridge");
+  journal.commit();
+  {
+    const FullDisk full(70'000);
+    EXPECT_THROW(journal.replace_with(leader.serialized()), DiskError);
+  }
+  {
+    const testing::RefusedWrites full(
+        [&](const fs::path& one) { return one.string().starts_with(arrived.string()); });
+    EXPECT_THROW(journal.replace_with(leader.serialized()), DiskError);
+  }
+  EXPECT_FALSE(fs::exists(arrived)) << "it would take up room";
+  EXPECT_EQ(journal.goals().size(), 1U);
+  journal.replace_with(leader.serialized());
+  EXPECT_TRUE(journal.goals().empty());
+  journal::remove_database(leaders);
+}
+
+// Between both files this process has no journal: it ends, and whoever starts anew finds the leader's.
+TEST_F(JournalDisk, AReplacementThatCannotBeOpenedYetIsThereForTheNextStart) {
+  const fs::path leaders = fs::path(file).concat(".leader");
+  Journal leader(leaders, Durability::process);
+  put(leader, "valley");
+  leader.commit();
+  {
+    Journal journal(file, Durability::process);
+    put(journal, "ridge");
+    journal.commit();
+    const testing::RefusedWrites full([&](const fs::path& one) {
+      return one == fs::path(file).concat("-shm") && !fs::exists(fs::path(file).concat(".arrived"));
+    });
+    try {
+      journal.replace_with(leader.serialized());
+      FAIL() << "it was opened";
+    } catch (const journal::JournalError&) {
+      FAIL() << "that is for what has changed nothing";
+    } catch (const std::runtime_error& error) {
+      EXPECT_THAT(error.what(), ::testing::HasSubstr("cannot be opened yet"));
+    }
+  }
+  const auto goals = Journal(file, Durability::process).goals();
+  ASSERT_EQ(goals.size(), 1U);
+  EXPECT_EQ(goals[0].request.key.id, "valley");
+  journal::remove_database(leaders);
 }
 
 TEST_F(JournalDisk, AStepThatAnExceptionCutsOffIsNotDurable) {
