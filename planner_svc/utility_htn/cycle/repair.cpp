@@ -157,7 +157,9 @@ bool Cycle::place_rests(std::uint32_t first, Time from) {
   return false;
 }
 
-// What follows a link that is late is late itself, whether or not the cycle repairs conflicts (task push, R98).
+// What follows a link that is late is late itself. Where the cycle repairs it is given a place beside all others; else
+// nothing is searched for (R100): it is pushed, and the executive waits with it until its preconditions hold (task push,
+// R98).
 bool Cycle::keep_order(Time now, Report& report) {
   const Time from = now + network_.cycle.commit_window;
   std::vector<std::uint32_t> late;
@@ -166,7 +168,7 @@ bool Cycle::keep_order(Time now, Report& report) {
   for (const std::uint32_t number : late) {
     if (settings_.repairs) {
       if (!make_room(number, from, report)) abandon(*block(number), kNoTimeLeft, report);
-    } else if (!shift(*block(number), from)) {
+    } else {
       push(*block(number), from);
     }
   }

@@ -202,6 +202,24 @@ TEST_F(CycleTest, AValueOutOfItsRangeIsRefusedInNumbersThatOneCanRead) {
   EXPECT_THAT(refused, AllOf(HasSubstr(" = 1e+30 is not between "), Not(HasSubstr("000000"))));
 }
 
+// R98: it waits for the arm that another image holds, as the executive waits with it; a place behind that is not searched for.
+TEST_F(CycleTest, WithoutRepairsWhatFollowsALateLinkIsPushedAndNoPlaceIsSearchedFor) {
+  for (const bool repairs : {false, true}) {
+    Cycle cycle = make({.repairs = repairs, .optimizes = false, .schedules_again = repairs});
+    const Block sample = sample_in(cycle);
+    const Link other = block_of_request(cycle, "view").links.front();
+    ASSERT_GE(other.start, sample.links[1].end);
+    cycle.begun(task_id(sample.number, 0), sample.links[0].start + (other.start - sample.links[1].start) + 5s);
+    cycle.run(20s);
+    const Block& late = block_of_request(cycle, "sample");
+    ASSERT_EQ(late.links[0].end, other.start + 5s);
+    if (repairs)
+      EXPECT_GT(late.links[1].start, late.links[0].end);
+    else
+      EXPECT_EQ(late.links[1].start, late.links[0].end);
+  }
+}
+
 TEST_F(CycleTest, WhatHasBegunIsFinishedLaterWhenItsFirstLinkTakesLonger) {
   Cycle cycle = make();
   cycle.run(Time{0});
