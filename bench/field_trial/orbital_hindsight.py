@@ -6,6 +6,7 @@ bound."""
 
 from __future__ import annotations
 
+import re
 import shutil
 from pathlib import Path
 
@@ -53,26 +54,39 @@ def constants(programs: Programs, folder: Path) -> problem.Table:
 def condition(mission: str, goal: Goal) -> list:
     """What mission.yaml says under `goal` of the goal's kind: the problem leaves out what holds at the start."""
     kind = mission[mission.index(f"\n  {goal.kind}:\n", mission.index("\ngoal_kinds:\n")) :]
-    formula = kind[kind.index("\n    goal:") :].split('"')[1]
+    formulas = re.findall(r'"([^"]*)"', re.split(r"\n(?:  )?  \w", kind.split("\n    goal:")[1])[0])
     for name, value in goal.arguments:
-        formula = formula.replace(f"{{{name}}}", value)
-    return read(formula)
+        formulas = [formula.replace(f"{{{name}}}", value) for formula in formulas]
+    return ["and", *(read(formula) for formula in formulas)]
+
+
+def in_time(goal: Goal, scenario: Scenario) -> tuple[float, tuple[str, ...]] | None:
+    """A module that fails works in its slot until then: when its goal's window closes at the latest, after the first call."""
+    arguments = dict(goal.arguments)
+    if goal.kind != "install" or arguments["module"] not in scenario.failing:
+        return None
+    return float(scenario.failing[arguments["module"]] - UPLOAD_S), ("allowed", arguments["module"], arguments["slot"])
 
 
 class Instance:
     """One scenario with all that was to come known at the first planner call."""
 
-    def __init__(self, programs: Programs, scenario: Scenario, goals: list[Goal], folder: Path):
+    def __init__(self, programs: Programs, scenario: Scenario, goals: list[Goal], done: list[Goal], folder: Path):
         call = first_call(programs, Scenario(scenario.seed, scenario.battery_j, [], {}, {}, scenario.ballast, told(goals)), {}, folder)
         self.problem = problem.parse(call.read_text())
         self.values = problem.read_values(call.with_suffix(".values")).completed(programs.constants).exact
         for slot in scenario.blocked:
             self.problem.facts -= {("free", slot), ("free-first", slot)}
+        mission = (programs.mission / "mission.yaml").read_text()
+        self.conditions = {goal.id: condition(mission, goal) for goal in goals}
+        for goal in goals:
+            if closes := in_time(goal, scenario):
+                self.conditions[goal.id].remove(["works", closes[1][1]])
+                if goal not in done:
+                    self.problem.timed.append((closes[0], False, closes[1]))
         for module in scenario.failing:
             self.problem.facts -= {("works", module)}
         self.energy_j = self.problem.numbers["battery"] if scenario.dark else None
-        mission = (programs.mission / "mission.yaml").read_text()
-        self.conditions = {goal.id: condition(mission, goal) for goal in goals}
         shutil.rmtree(folder)
 
     def solvable(self, goals: list[Goal]) -> bool | None:
@@ -95,7 +109,8 @@ def look_back(programs: Programs, scenario: Scenario, flight: Flight, folder: Pa
         out.best, enumerated = flown, False
     if not failed and not enumerated:
         return out
-    instance = Instance(programs, scenario, wanted, folder)
+    met = [goal for goal in wanted if ends[goal.id].state == "achieved"]
+    instance = Instance(programs, scenario, wanted, met, folder)
     done = [goal for goal in wanted if goal.importance == "hard" and ends[goal.id].state == "achieved"]
     for goal in failed:
         out.hard[goal.id] = instance.solvable(done + [goal])

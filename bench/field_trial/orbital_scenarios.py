@@ -46,7 +46,7 @@ class Scenario(DrawnScenario):
     ballast: list[str]  # slots
     stimuli: list[tuple[int, Goal | str]]  # seconds; a goal, or another stimulus as YAML
     dark: bool = False  # the arrays give nothing
-    failing: list[str] = field(default_factory=list)  # modules that fail in flight
+    failing: dict[str, int] = field(default_factory=dict)  # modules that fail in flight, with the time
     faults: list[tuple[str, int, int]] = field(default_factory=list)  # component, from, to
 
     def yaml(self) -> str:
@@ -117,11 +117,11 @@ def draw(seed: int) -> Scenario:
         ask("opportunistic", "orbiter", d.random.randint(30, 2500))
     if not stimuli:
         stimuli.append((UPLOAD_S, Goal("h0", "ground", "install", "hard", 1, (("module", "radar-1"), ("slot", "s3")))))
-    failing = []
+    failing = {}
     if d.chance(0.3):
         module = d.random.choice(SEATED)
-        failing.append(module)
-        stimuli.append((d.random.randint(30, 1500), f"module_fails: {{module: {module}}}"))
+        failing[module] = d.random.randint(30, 1500)
+        stimuli.append((failing[module], f"module_fails: {{module: {module}}}"))
     if d.chance(0.25):
         joint, friction = d.random.choice(JOINTS), round(d.random.uniform(0.3, 0.9), 2)
         stimuli.append((d.random.randint(30, 1500), f"slow_joint: {{joint: {joint}, friction: {friction}, growth: 0.0}}"))

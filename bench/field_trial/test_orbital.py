@@ -11,7 +11,9 @@ import problem
 from drop_order import broken_drop_order
 from flights import Flight, GoalEnd
 from orbital_bound import Bound, clauses
+from orbital_hindsight import condition, in_time
 from orbital_reference import Scheduler
+from orbital_scenarios import Goal, Scenario
 from trials import TRIALS
 
 MISSION = Path(__file__).resolve().parents[2] / "missions" / "orbital" / "mission.yaml"
@@ -99,6 +101,16 @@ class DropOrder(unittest.TestCase):
         self.assertEqual(len(self.faults_when("watch/radio", "(seat radio-2 ?s)")), 1)
 
 
+class Hindsight(unittest.TestCase):
+    """Until when a module that fails can work where it is wanted."""
+
+    def test_a_module_that_fails_is_in_its_slot_before_or_never(self):
+        goal = Goal("h1", "ground", "install", "hard", 1, (("module", "radar-1"), ("slot", "s3")))
+        scenario = Scenario(1, 600000, [], {}, {}, [], [], failing={"radar-1": 210})
+        self.assertEqual(in_time(goal, scenario), (200.0, ("allowed", "radar-1", "s3")))
+        self.assertIsNone(in_time(goal, Scenario(1, 600000, [], {}, {}, [], [])))
+
+
 class ByHand(unittest.TestCase):
     def test_one_module_is_moved(self):
         found = orbital_reference.schedule(made({"m": "s0"}, ["(installed m s2)"], wanted("m", "s2")), values())
@@ -169,13 +181,10 @@ class AgainstPlainSearch(unittest.TestCase):
 
 class GoalConditions(unittest.TestCase):
     def test_they_are_those_of_the_mission(self):
-        from orbital_hindsight import condition
-        from orbital_scenarios import Goal
-
         mission = MISSION.read_text()
         install = Goal("g", "ground", "install", "hard", 1, (("module", "radar-1"), ("slot", "s3")))
-        self.assertEqual(condition(mission, install), ["installed", "radar-1", "s3"])
-        self.assertEqual(condition(mission, Goal("g", "ground", "replace", "hard", 1, (("module", "camera-1"),)))[0], "exists")
+        self.assertEqual(condition(mission, install), ["and", ["installed", "radar-1", "s3"], ["works", "radar-1"]])
+        self.assertEqual(condition(mission, Goal("g", "ground", "replace", "hard", 1, (("module", "camera-1"),)))[1][0], "exists")
         self.assertIn("survey", str(condition(mission, Goal("g", "ground", "configure", "hard", 1, (("mode", "survey"),)))))
 
 

@@ -8,6 +8,7 @@
 #include "planner_svc/utility_htn/downlink/capacity.hpp"
 #include "planner_svc/utility_htn/downlink/certificate.hpp"
 #include "planner_svc/utility_htn/downlink/packing.hpp"
+#include "planner_svc/utility_htn/downlink/selection.hpp"
 #include "planner_svc/utility_htn/downlink/solver.hpp"
 #include "planner_svc/utility_htn/downlink/words.hpp"
 
@@ -160,12 +161,9 @@ Settled settle(const Packing& packing, const Effort& effort, Counts& counts) {
     ++counts.certificate;
     return {std::move(certified.placement), {.by = Proof::By::certificate, .earliest_too = true}};
   }
-  if (variables(packing) > effort.most_variables) {
-    ++counts.open;
-    return {std::move(certified.placement),
-            {.by = Proof::By::bound, .gap = certified.gap, .rank = certified.rank}};
-  }
-  Solved solved = solve(packing, certified.placement, nodes(effort, variables(packing)));
+  const bool large = variables(packing) > effort.most_variables;
+  Solved solved = large ? select_and_fill(packing, certified.placement, effort.most_nodes_of_items)
+                        : solve(packing, certified.placement, nodes(effort, variables(packing)));
   ++(solved.best && solved.earliest ? counts.solver : counts.open);
   return {std::move(solved.placement),
           {.by = solved.best ? Proof::By::solver : Proof::By::bound,

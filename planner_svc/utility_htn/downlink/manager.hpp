@@ -96,7 +96,8 @@ struct Assignment {
 /// Bounds the work, never the time, so that the same question has the same answer everywhere.
 struct Effort {
   int most_nodes = 2'000;  ///< of CBC's search, for each rank; fewer for questions of more than 500 variables
-  std::size_t most_variables = 2'000;  ///< pairs of product and window; above, CBC is not asked
+  std::size_t most_variables = 2'000;  ///< pairs of product and window; above, CBC decides on products alone
+  int most_nodes_of_items = 200;       ///< of that search, for each rank
 };
 
 /// Counts what answered the questions so far: of admits() whole questions, of assign()

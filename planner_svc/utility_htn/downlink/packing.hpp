@@ -53,6 +53,7 @@ class Room {
   explicit Room(const Packing& packing) : Room(packing.bins, packing.sol_joules) {}
   bool fits(std::uint64_t bytes, std::size_t bin) const;
   void take(std::uint64_t bytes, std::size_t bin) { used_[bin] += bytes; }
+  void give_back(std::uint64_t bytes, std::size_t bin) { used_[bin] -= bytes; }
   std::uint64_t used(std::size_t bin) const { return used_[bin]; }
 
  private:

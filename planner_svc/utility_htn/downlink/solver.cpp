@@ -1,28 +1,19 @@
 #include "planner_svc/utility_htn/downlink/solver.hpp"
 
-#include <CbcModel.hpp>
-#include <CglKnapsackCover.hpp>
-#include <CglMixedIntegerRounding2.hpp>
-#include <CoinPackedMatrix.hpp>
-#include <OsiClpSolverInterface.hpp>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 #include <vector>
 
 #include "planner_svc/utility_htn/downlink/certificate.hpp"
+#include "planner_svc/utility_htn/downlink/integer_program.hpp"
 
 namespace roci::planner::utility_htn::downlink {
 namespace {
 
 // A placement that the solver's tolerances let through is cut off by name and the solver asked again, at most so often.
 constexpr int kMostRefusals = 20;
-
-struct Row {
-  CoinPackedVector terms{};
-  double lower = -COIN_DBL_MAX;
-  double upper = COIN_DBL_MAX;
-};
 
 // Is one answer of CBC: a better placement than asked for, if any, and whether its search came to the end.
 struct Answer {
@@ -59,7 +50,7 @@ class Program {
       largest = std::max(largest, std::abs(value_of(pairs_[p].first)));
     for (std::size_t p = 0; p < pairs_.size(); ++p) {
       const double here = value_of(pairs_[p].first);
-      if (here != 0) row.terms.insert(static_cast<int>(p), here / largest);
+      if (here != 0) row.terms.emplace_back(static_cast<int>(p), here / largest);
     }
     row.lower /= largest;
     rows_.push_back(std::move(row));
@@ -78,13 +69,13 @@ class Program {
       }
       refuse(placement);
     }
-    return {.better = {}, .ended = false, .bound = COIN_DBL_MAX};
+    return {.better = {}, .ended = false, .bound = std::numeric_limits<double>::max()};
   }
 
  private:
   void add_once(std::size_t item) {
     Row row{.upper = 1};
-    for (const int p : by_item_[item]) row.terms.insert(p, 1);
+    for (const int p : by_item_[item]) row.terms.emplace_back(p, 1);
     rows_.push_back(std::move(row));
   }
 
@@ -94,7 +85,7 @@ class Program {
       const double left = static_cast<double>(packing_.bins[bin].capacity - packing_.bins[bin].used);
       Row row{.upper = 1};
       for (const int p : by_bin_[bin]) {
-        row.terms.insert(
+        row.terms.emplace_back(
             p, static_cast<double>(packing_.items[pairs_[static_cast<std::size_t>(p)].first].bytes) / left);
       }
       rows_.push_back(std::move(row));
@@ -112,7 +103,7 @@ class Program {
       for (std::size_t p = 0; p < pairs_.size(); ++p) {
         const Bin& bin = packing_.bins[pairs_[p].second];
         if (bin.sol != sol) continue;
-        row.terms.insert(
+        row.terms.emplace_back(
             static_cast<int>(p),
             bin.joules_per_byte * static_cast<double>(packing_.items[pairs_[p].first].bytes) / left);
       }
@@ -123,55 +114,23 @@ class Program {
   void refuse(const Placement& placement) {
     Row row;
     for (std::size_t p = 0; p < pairs_.size(); ++p) {
-      if (placement[pairs_[p].first] == pairs_[p].second) row.terms.insert(static_cast<int>(p), 1);
+      if (placement[pairs_[p].first] == pairs_[p].second) row.terms.emplace_back(static_cast<int>(p), 1);
     }
-    row.upper = row.terms.getNumElements() - 1;
+    row.upper = static_cast<double>(row.terms.size()) - 1;
     rows_.push_back(std::move(row));
   }
 
   // Returns whether there is a better one.
   template <typename Gain>
   bool ask(const Gain& gain, double value, int most_nodes, Answer& answer, Placement& placement) const {
-    const int columns = static_cast<int>(pairs_.size());
-    CoinPackedMatrix matrix(false, 0, 0);
-    matrix.setDimensions(0, columns);
-    std::vector<double> row_lower, row_upper, lower(pairs_.size(), 0), upper(pairs_.size(), 1), cost;
-    for (const Row& row : rows_) {
-      matrix.appendRow(row.terms);
-      row_lower.push_back(row.lower);
-      row_upper.push_back(row.upper);
-    }
-    for (const auto& [item, bin] : pairs_) cost.push_back(-gain(item, bin));
-    OsiClpSolverInterface linear;
-    linear.messageHandler()->setLogLevel(0);
-    linear.loadProblem(matrix, lower.data(), upper.data(), cost.data(), row_lower.data(), row_upper.data());
-    for (int p = 0; p < columns; ++p) linear.setInteger(p);
-    CbcModel model(linear);
-    model.setLogLevel(0);
-    model.messageHandler()->setLogLevel(0);
-    model.solver()->messageHandler()->setLogLevel(0);
-    CglKnapsackCover covers;
-    CglMixedIntegerRounding2 roundings;
-    model.addCutGenerator(&covers, -1, "covers");
-    model.addCutGenerator(&roundings, -1, "roundings");
-    // Strong branching goes through hot starts, in which Clp 1.17 can end the process by an
-    // assertion once cuts are there.
-    model.setNumberStrong(0);
-    model.setNumberBeforeTrust(0);
-    model.setMaximumNodes(most_nodes);
-    model.setIntegerTolerance(1e-7);
-    model.setCutoff(-value - 0.5);
-    model.branchAndBound();
-    answer.ended = model.isProvenOptimal() || model.isProvenInfeasible();
-    answer.bound = -model.getBestPossibleObjValue();
-    if (model.bestSolution() == nullptr) return false;
-    double found = 0;
-    for (std::size_t p = 0; p < pairs_.size(); ++p) {
-      if (model.bestSolution()[p] < 0.5) continue;
-      placement[pairs_[p].first] = pairs_[p].second;
-      found += gain(pairs_[p].first, pairs_[p].second);
-    }
-    return found > value;
+    std::vector<Variable> variables;
+    for (const auto& [item, bin] : pairs_) variables.push_back({.gain = gain(item, bin)});
+    const Optimum found = maximize(variables, rows_, value, most_nodes);
+    answer.ended = found.ended;
+    answer.bound = found.bound;
+    for (std::size_t p = 0; p < found.values.size(); ++p)
+      if (found.values[p] == 1) placement[pairs_[p].first] = pairs_[p].second;
+    return !found.values.empty();
   }
 
   const Packing& packing_;

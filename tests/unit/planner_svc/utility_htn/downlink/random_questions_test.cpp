@@ -4,6 +4,8 @@
 
 #include "planner_svc/utility_htn/downlink/capacity.hpp"
 #include "planner_svc/utility_htn/downlink/certificate.hpp"
+#include "planner_svc/utility_htn/downlink/filling.hpp"
+#include "planner_svc/utility_htn/downlink/selection.hpp"
 #include "planner_svc/utility_htn/downlink/solver.hpp"
 #include "tests/unit/planner_svc/utility_htn/downlink/brute_force.hpp"
 
@@ -78,6 +80,62 @@ TEST(RandomQuestions, CertificateAndSolverAgree) {
   EXPECT_GT(certified, 100);
 }
 
+// What large questions are answered by, on small ones.
+TEST(RandomQuestions, WhatIsSelectedAndFilledIsNoWorseAndItsBoundsHold) {
+  std::mt19937_64 random(8);
+  int best = 0, better = 0;
+  for (int round = 0; round < 600; ++round) {
+    const Packing packing = packing_of(draw(random, false));
+    const Placement start = round % 2 == 0 ? certify(packing).placement : Placement(packing.items.size());
+    const Solved filled = select_and_fill(packing, start, 200);
+    ASSERT_TRUE(holds(packing, filled.placement)) << "round " << round;
+    const Worth optimal = worth(packing, solve(packing, start, 2'000).placement);
+    const Worth value = worth(packing, filled.placement);
+    ASSERT_GE(value, worth(packing, start)) << "round " << round;
+    ASSERT_LE(without_earliness(value), without_earliness(optimal)) << "round " << round;
+    better += value > worth(packing, start) ? 1 : 0;
+    best += filled.best ? 1 : 0;
+    if (filled.best) {
+      ASSERT_EQ(without_earliness(value), without_earliness(optimal)) << "round " << round;
+      continue;
+    }
+    for (std::uint32_t rank = 0; rank < std::min<std::size_t>(filled.rank, packing.ranks); ++rank)
+      ASSERT_EQ(value.sums[rank], optimal.sums[rank]) << "round " << round << ": it is proven there";
+    if (filled.rank == packing.ranks) continue;
+    const auto truth = static_cast<double>(optimal.sums[filled.rank]);
+    ASSERT_GE(filled.gap * truth + 1e-6, truth - static_cast<double>(value.sums[filled.rank]))
+        << "round " << round;
+  }
+  EXPECT_GT(best, 300);
+  EXPECT_GT(better, 200);
+}
+
+// Items that fill all bins to the last byte, if each goes with the right others.
+TEST(RandomQuestions, WhatFillsAllBinsIsFilledInWithNextToNothingLeft) {
+  std::mt19937_64 random(9);
+  for (int round = 0; round < 10; ++round) {
+    Packing packing{.items = {}, .bins = std::vector<Bin>(20), .sol_joules = {}, .ranks = 1};
+    Chosen chosen;
+    std::uint64_t all = 0;
+    for (std::uint32_t bin = 0; bin < packing.bins.size(); ++bin) {
+      for (int i = 0; i < 15; ++i) {
+        const std::uint64_t bytes = 1'000 + random() % 400'000;
+        const auto first = static_cast<std::uint32_t>(random() % (bin + 1));
+        packing.items.push_back({bytes, first, {static_cast<std::int64_t>(bytes)}});
+        packing.bins[bin].capacity += bytes;
+        all += bytes;
+      }
+      chosen.bytes.push_back(static_cast<double>(packing.bins[bin].capacity));
+    }
+    chosen.items.assign(packing.items.size(), true);
+    const Placement placement = fill(packing, chosen);
+    ASSERT_TRUE(holds(packing, placement));
+    std::uint64_t placed = 0;
+    for (std::size_t i = 0; i < placement.size(); ++i) placed += placement[i] ? packing.items[i].bytes : 0;
+    EXPECT_GT(static_cast<double>(placed), 0.995 * static_cast<double>(all)) << "round " << round;
+  }
+}
+
 TEST(RandomQuestions, WhetherAllFitIsTheSameByCertificateAndSolver) {
   std::mt19937_64 random(4);
   int yes = 0;
@@ -145,7 +203,7 @@ TEST(RandomQuestions, TheOrderOfProductsDoesNotMatterAndNothingIsPrinted) {
 
 TEST(RandomQuestions, SpentEffortIsSaidAndLeavesAGap) {
   std::mt19937_64 random(7);
-  Manager hasty(Effort{.most_nodes = 2'000, .most_variables = 0});
+  Manager hasty(Effort{.most_variables = 0, .most_nodes_of_items = 1});
   Manager patient;
   int open = 0;
   for (int round = 0; round < 100; ++round) {
