@@ -221,6 +221,7 @@ FlexiblePlan plan_of(const model::Network& network, const flattening::Chains& ch
     if (network.timelines[i].is_remembered())
       remember("internal." + network.timelines[i].name, value_of(network.timelines[i], past.internal[i]));
   for (const std::string& activity : frame.measured) remember("measured." + activity, true);
+  for (const auto& [sol, joules] : frame.spent_j) remember("downlinks." + std::to_string(sol), joules);
   remember(kPastUntil, temporal::to_seconds(cycle.timelines().past()));
   remember(kLastBlock, static_cast<double>(cycle.last_block()));
   out.point_count = points.count();

@@ -20,6 +20,7 @@ struct Frame {
   temporal::Time origin{0};
   std::vector<std::string> goals;    ///< keys of those that every activity serves
   std::set<std::string> measured{};  ///< activities whose measurements are in the values already
+  std::map<std::uint32_t, double> spent_j{};  ///< by downlinks that have left the plan, by sol
 };
 
 /// Gives time points to links; they keep them as long as they are in the plan, and then others may have them. So the
@@ -76,7 +77,8 @@ struct Recovered {
   std::vector<cycle::Block> blocks;
   std::uint32_t last_block = 0;
   Points points;
-  std::set<std::string> measured{};  ///< as in Frame
+  std::set<std::string> measured{};           ///< as in Frame
+  std::map<std::uint32_t, double> spent_j{};  ///< as in Frame
 };
 
 /// Reads a plan of plan_of() for the same network. Times are the planned ones, stages planned or committed. Throws

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <stdexcept>
 #include <string_view>
 #include <unordered_map>
@@ -81,6 +82,13 @@ class Recovery {
       const auto* number = std::get_if<double>(&token.held);
       if (number == nullptr || !is_count(*number)) foreign("number in " + token.timeline);
       out_.last_block = std::max(out_.last_block, static_cast<std::uint32_t>(*number));
+    } else if (name.starts_with("downlinks.")) {
+      const auto* joules = std::get_if<double>(&token.held);
+      std::uint32_t sol = 0;
+      const auto read = std::from_chars(rest.data(), rest.data() + rest.size(), sol);
+      if (read.ec != std::errc{} || joules == nullptr || !std::isfinite(*joules) || *joules < 0)
+        foreign("joules of a sol in " + token.timeline);
+      out_.spent_j[sol] = *joules;
     } else if (name.starts_with("measured.")) {
       out_.measured.emplace(rest);
     }

@@ -66,8 +66,17 @@ void UtilityEngine::run_cycle(const StepInputs& inputs, StepOutput& out) {
 void UtilityEngine::send(const StepInputs& inputs, StepOutput& out) {
   if (published_.is_over(planned_.cycle())) return;
   forget_measurements();
-  Frame frame{setup_.engine,          setup_.robot,         inputs.last_version + 1, {},
-              goals_.served_by_all(), measurements_.taken()};
+  const cycle::Cycle& cycle = planned_.cycle();
+  const auto told = [&](cycle::TaskId task) {
+    return std::ranges::count(cycle.blocks(), cycle::block_of(task), &cycle::Block::number) > 0;
+  };
+  Frame frame{setup_.engine,
+              setup_.robot,
+              inputs.last_version + 1,
+              {},
+              goals_.served_by_all(),
+              measurements_.taken(),
+              planned_.delivery().spent(told, inputs.now, cycle.past().values)};
   out.delta = published_.next(planned_, goals_, std::move(frame), inputs.now);
   goes_on_ = true;
 }
@@ -201,6 +210,8 @@ void UtilityEngine::go_on_with(const FlexiblePlan& executed, Time now) {
     recovered.past.failures = cycle.past().failures;
     recovered.past.done.insert(cycle.past().done.begin(), cycle.past().done.end());
     recovered.measured.insert(measurements_.taken().begin(), measurements_.taken().end());
+  } else {
+    planned_.delivery().resume(recovered.spent_j);
   }
   if (fitted.foreign) published_.renew();
   measurements_.resume(std::move(recovered.measured));

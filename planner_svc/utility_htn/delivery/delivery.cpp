@@ -117,11 +117,26 @@ void Delivery::replaced(const model::Network& before) {
   }
 }
 
-void Delivery::executed(std::uint64_t activity, model::TaskIndex task, Time start, Time end,
+void Delivery::executed(temporal::timelines::TaskId activity, model::TaskIndex task, Time start, Time end,
                         const model::Values& values) {
-  if (!rules_.has_rate() || !network_.tasks[task].downlinks || !executed_.insert(activity).second) return;
+  if (!rules_.has_rate() || !network_.tasks[task].downlinks) return;
   const downlink::Window window = rules_.window({task, start, end}, values);
-  spent_[window.sol] += Rules::joules(window);
+  const Spent here{window.sol, Rules::joules(window)};
+  if (executed_.emplace(activity, here).second) spent_[here.sol] += here.joules;
+}
+
+std::map<std::uint32_t, double> Delivery::spent(
+    const std::function<bool(temporal::timelines::TaskId)>& told, Time now, const model::Values& values) const {
+  if (!rules_.has_rate() || !std::isfinite(rules_.sol_limit_j(values))) return {};
+  std::map<std::uint32_t, double> out = spent_;
+  for (const auto& [activity, here] : executed_)
+    if (told(activity)) out[here.sol] -= here.joules;
+  std::erase_if(out, [&](const auto& one) { return one.first < sol_of(now, values) || one.second <= 0; });
+  return out;
+}
+
+void Delivery::resume(const std::map<std::uint32_t, double>& spent) {
+  for (const auto& [sol, joules] : spent) spent_[sol] += joules;
 }
 
 namespace {

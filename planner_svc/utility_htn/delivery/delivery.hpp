@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <set>
 #include <span>
@@ -103,8 +104,14 @@ class Delivery {
   }
   /// Takes in what an executed downlink took, for the limit of its sol. `activity` is unique;
   /// what is told again counts once.
-  void executed(std::uint64_t activity, model::TaskIndex task, temporal::Time start, temporal::Time end,
-                const model::Values& values);
+  void executed(temporal::timelines::TaskId activity, model::TaskIndex task, temporal::Time start,
+                temporal::Time end, const model::Values& values);
+  /// Returns the joules that executed downlinks took in the sol of `now` and later, by sol, beside those of activities
+  /// for which `told` holds; nothing where sols have no limit.
+  std::map<std::uint32_t, double> spent(const std::function<bool(temporal::timelines::TaskId)>& told,
+                                        temporal::Time now, const model::Values& values) const;
+  /// Takes in what spent() has told another process, once.
+  void resume(const std::map<std::uint32_t, double>& spent);
 
   /// Gives the search the existing products, and the question that it asks of each candidate.
   /// `this` outlives the problem.
@@ -180,7 +187,11 @@ class Delivery {
   std::vector<Existing> existing_;                   // by data.id
   std::vector<assessor::ExistingProduct> products_;  // the same
   std::map<std::uint32_t, double> spent_;            // joules, by sol
-  std::set<std::uint64_t> executed_;
+  struct Spent {
+    std::uint32_t sol = 0;
+    double joules = 0;
+  };
+  std::map<temporal::timelines::TaskId, Spent> executed_;
   Counts counts_;
   temporal::Time last_sent_{0};  // when the newest product was sent
   bool has_told_ = false;

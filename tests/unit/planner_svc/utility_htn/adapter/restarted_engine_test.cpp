@@ -121,6 +121,57 @@ TEST(RestartedEngine, GivesNoNumberOfABlockAgain) {
   }
 }
 
+// One downlink takes 100 J, and a sol has 150 J for all of them.
+TEST(RestartedEngine, KnowsWhatDownlinksTookThatHaveLeftThePlan) {
+  model::Network network = testing::toy_network();
+  for (const auto& [name, value] : {std::pair("rate_bytes_per_s", 10.0), {"sol_limit_j", 150.0}, {"sol_s", 1e6}})
+    network.parameters.push_back({name, value, 0, 1e9});
+  for (const char* id : {"send_sample", "send_view"})
+    network.tasks[testing::task_named(network, id)].downlinks = true;
+  network.tasks[testing::task_named(network, "idle")].opens = 2000s;  // so that the plan goes on
+  const auto engine = [&] { return UtilityEngine({"utility_htn", "lander", "", {}}, network); };
+  const auto names = [](const FlexiblePlan& plan) {
+    std::vector<std::string> out;
+    for (const temporal::PlanActivity& activity : plan.activities) out.push_back(activity.name);
+    return out;
+  };
+  UtilityEngine died = engine();
+  FlexiblePlan plan;
+  ASSERT_EQ(temporal::apply(*died.step(beginning()).delta, plan), "");
+  ASSERT_THAT(names(plan), Contains("send_sample"));
+  ASSERT_THAT(names(plan), Not(Contains("send_view")));
+  std::set<std::string> over;
+  for (Time now = 10s; now < 600s; now += 10s) {
+    StepInputs inputs;
+    inputs.now = now;
+    inputs.receipt = engine::Receipt{plan.version, 0, "", "", true};
+    inputs.last_version = plan.version;
+    for (const temporal::PlanActivity& one : plan.activities) {
+      const Time start = plan.origin + one.preferred_start, end = start + one.duration_lower;
+      if (one.commit != temporal::CommitState::committed || end > now || !over.insert(one.id).second) continue;
+      inputs.steps.push_back({plan.version, one.id, {temporal::ActivityState::succeeded, start, end}, "", 0});
+    }
+    const StepOutput out = died.step(inputs);
+    if (out.delta) {
+      ASSERT_EQ(temporal::apply(*out.delta, plan), "");
+    }
+  }
+  ASSERT_THAT(names(plan), Not(Contains("send_sample"))) << "it is over";
+  ASSERT_THAT(names(plan), Not(Contains("send_view")));
+  for (int restart = 0; restart < 2; ++restart) {
+    UtilityEngine anew = engine();
+    StepInputs inputs = beginning();
+    inputs.now = Time(600s + restart * 100s);
+    inputs.executed = plan;
+    inputs.receipt->version = inputs.last_version = plan.version;
+    const StepOutput out = anew.step(inputs);
+    if (out.delta) {
+      ASSERT_EQ(temporal::apply(*out.delta, plan), "");
+    }
+    EXPECT_THAT(names(plan), Not(Contains("send_view"))) << "after restart " << restart;
+  }
+}
+
 // A cycle may take longer than its interval; here three have passed until the engine is stepped again.
 TEST(LateCycle, LeavesOutTheIntervalsThatHavePassed) {
   UtilityEngine engine = new_engine();

@@ -249,6 +249,25 @@ TEST_F(DeliveryTest, WhatWasExecutedInASolCountsForItsLimit) {
   EXPECT_THAT(planned(), ElementsAre("idle", "sample"));
 }
 
+TEST_F(DeliveryTest, AnotherProcessIsToldWhatIsNoLongerInThePlan) {
+  add_parameter("sol_limit_j", 200);
+  add_parameter("sol_s", 100);
+  start();
+  const auto send = task_named(network_, "send_view");
+  const model::Values& values = cycle_->past().values;
+  for (const auto& [activity, at] : {std::pair(1U, 10s), {2U, 40s}, {3U, 110s}})
+    delivery_->executed(activity, send, at, at + 10s, values);
+  const auto is_second = [](temporal::timelines::TaskId activity) { return activity == 2; };
+  using Joules = std::map<std::uint32_t, double>;
+  EXPECT_EQ(delivery_->spent(is_second, 50s, values), (Joules{{0, 50}, {1, 50}}));
+  EXPECT_EQ(delivery_->spent(is_second, 150s, values), (Joules{{1, 50}})) << "the first sol is over";
+  Delivery anew(network_);
+  anew.resume(delivery_->spent(is_second, 50s, values));
+  anew.executed(2, send, 40s, 50s, values);
+  EXPECT_EQ(anew.longest(send, 60s, {}, values), delivery_->longest(send, 60s, {}, values));
+  EXPECT_EQ(anew.spent(is_second, 50s, values), delivery_->spent(is_second, 50s, values));
+}
+
 TEST_F(DeliveryTest, RandomPlansKeepBothLimits) {
   std::mt19937 random(17);
   for (int round = 0; round < 40; ++round) {
