@@ -68,6 +68,12 @@ def in_time(goal: Goal, scenario: Scenario) -> tuple[float, tuple[str, ...]] | N
     return float(scenario.failing[arguments["module"]] - UPLOAD_S), ("allowed", arguments["module"], arguments["slot"])
 
 
+def close(task: problem.Problem, time: float, fact: tuple[str, ...]) -> None:
+    """From this time on the fact holds no more, whatever the problem says."""
+    task.timed = [one for one in task.timed if one[2] != fact or one[0] < time]
+    task.timed.append((time, False, fact))
+
+
 class Instance:
     """One scenario with all that was to come known at the first planner call."""
 
@@ -83,7 +89,7 @@ class Instance:
             if closes := in_time(goal, scenario):
                 self.conditions[goal.id].remove(["works", closes[1][1]])
                 if goal not in done:
-                    self.problem.timed.append((closes[0], False, closes[1]))
+                    close(self.problem, *closes)
         for module in scenario.failing:
             self.problem.facts -= {("works", module)}
         self.energy_j = self.problem.numbers["battery"] if scenario.dark else None

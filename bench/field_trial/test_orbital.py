@@ -11,7 +11,7 @@ import problem
 from drop_order import broken_drop_order
 from flights import Flight, GoalEnd
 from orbital_bound import Bound, clauses
-from orbital_hindsight import condition, in_time
+from orbital_hindsight import close, condition, in_time
 from orbital_reference import Scheduler
 from orbital_scenarios import Goal, Scenario
 from trials import TRIALS
@@ -109,6 +109,13 @@ class Hindsight(unittest.TestCase):
         scenario = Scenario(1, 600000, [], {}, {}, [], [], failing={"radar-1": 210})
         self.assertEqual(in_time(goal, scenario), (200.0, ("allowed", "radar-1", "s3")))
         self.assertIsNone(in_time(goal, Scenario(1, 600000, [], {}, {}, [], [])))
+
+    def test_a_window_that_opens_after_the_failure_does_not_open(self):
+        opening = "(wanted m s2)\n(at 300 (allowed m s2))\n(at 900 (not (allowed m s2)))"
+        task = made({"m": "s0"}, ["(installed m s2)"], opening)
+        self.assertTrue(orbital_reference.schedule(task, values()).solvable)
+        close(task, 200.0, ("allowed", "m", "s2"))
+        self.assertIs(orbital_reference.schedule(task, values()).solvable, False)
 
 
 class ByHand(unittest.TestCase):

@@ -107,7 +107,8 @@ std::int64_t Statement::number(int column) const { return sqlite3_column_int64(s
 Journal::Database::Database(const std::filesystem::path& file, Durability durability)
     : exceptions_(std::uncaught_exceptions()) {
   const int status = sqlite3_open(file.c_str(), &handle);
-  open_as_journal(file, status, "move it away or choose another --run-folder", [this, durability] {
+  const Remedy remedy{"check that its folder can be written", "move it away or choose another --run-folder"};
+  open_as_journal(file, status, remedy, [this, durability] {
     execute("PRAGMA journal_mode=WAL;");
     execute(kCacheSize);
     execute(durability == Durability::power ? "PRAGMA synchronous=FULL;" : "PRAGMA synchronous=OFF;");
@@ -120,7 +121,8 @@ Journal::Database::Database(const std::filesystem::path& file, Durability durabi
 
 Journal::Database::Database(const std::filesystem::path& file) : exceptions_(std::uncaught_exceptions()) {
   const int status = sqlite3_open_v2(file.c_str(), &handle, SQLITE_OPEN_READONLY, nullptr);
-  open_as_journal(file, status, "give a run folder, or one of the journals in it", [this] {
+  const std::string give = "give a run folder, or one of the journals in it";
+  open_as_journal(file, status, {give, give}, [this] {
     require_known_format(stated_format(handle));
     execute(
         "SELECT seq, time_us, kind, text FROM record LIMIT 1;"
@@ -129,12 +131,11 @@ Journal::Database::Database(const std::filesystem::path& file) : exceptions_(std
 }
 
 void Journal::Database::open_as_journal(const std::filesystem::path& file, int status,
-                                        const std::string& remedy, const std::function<void()>& settle) {
+                                        const Remedy& remedy, const std::function<void()>& settle) {
   if (status != SQLITE_OK) {
     const std::string reason = sqlite3_errmsg(handle);
     sqlite3_close(handle);
-    throw JournalError("cannot open the journal " + file.string() + ": " + reason +
-                       "; check that its folder can be written");
+    throw JournalError("cannot open the journal " + file.string() + ": " + reason + "; " + remedy.unopened);
   }
   sqlite3_busy_timeout(handle, kBusyTimeoutMs);
   try {
@@ -147,7 +148,7 @@ void Journal::Database::open_as_journal(const std::filesystem::path& file, int s
     throw DiskError("the journal " + file.string() + " cannot be written: " + error.what());
   } catch (const JournalError& error) {
     close();
-    throw JournalError(file.string() + " is not a usable journal (" + error.what() + "); " + remedy);
+    throw JournalError(file.string() + " is not a usable journal (" + error.what() + "); " + remedy.foreign);
   }
 }
 

@@ -89,8 +89,12 @@ struct Journal::Database {
   std::optional<Batch> record_changes();
   void write();
   void close();
+  /// Says what to do about a file that cannot be opened, and about one that is something else.
+  struct Remedy {
+    std::string unopened, foreign;
+  };
   /// Runs `settle` on the file just opened; closes it, and names it, in each error.
-  void open_as_journal(const std::filesystem::path& file, int status, const std::string& remedy,
+  void open_as_journal(const std::filesystem::path& file, int status, const Remedy& remedy,
                        const std::function<void()>& settle);
 
   sqlite3_session* session_ = nullptr;          ///< of the open transaction, if it becomes a batch

@@ -21,6 +21,10 @@ bool MissionState::replan_due() const {
   return authority.may_replan() || phase == MissionPhase::idle || phase == MissionPhase::finished;
 }
 
+bool MissionState::tells_conclusion(const std::string& timeline) const {
+  return !mission->executive.plans_continuously() || timeline.starts_with(kTrust);
+}
+
 void MissionState::report(Severity level, std::string code, std::string text) {
   out.events.push_back({level, std::move(code), std::move(text)});
 }

@@ -16,6 +16,9 @@ namespace roci::exec::reactor {
 /// Returns the text up to its first line feed.
 std::string first_line(const std::string& text);
 
+/// Begins the names of timelines that say whether a subsystem is trusted.
+inline constexpr char kTrust[] = "trust.";
+
 /// Holds what the parts of the reactor share; it decides nothing.
 struct MissionState {
   /// The model outlives the state.
@@ -36,6 +39,10 @@ struct MissionState {
   /// Returns whether a plan is wanted and the ground lets it be made: below autonomy E4 only where no plan
   /// runs, under a hold never.
   bool replan_due() const;
+  /// Returns whether others are told what was concluded of a timeline. Where the engine plans all the time that is only
+  /// who is not trusted: such an engine keeps the timelines of its plan itself, and knows, too, what tasks with commands
+  /// have made of them.
+  bool tells_conclusion(const std::string& timeline) const;
   /// Reports an event to operators.
   void report(Severity level, std::string code, std::string text);
   void set_goal(const goals::GoalKey& key, goals::GoalState goal_state, const std::string& reason,

@@ -12,9 +12,6 @@
 
 namespace roci::exec::reactor {
 
-/// Begins the names of timelines that say whether a subsystem is trusted.
-inline constexpr char kTrust[] = "trust.";
-
 /// Watches the running plan, and chooses how to go on after a failure, an end or a conflict seen ahead.
 class PlanRecovery {
  public:

@@ -240,8 +240,7 @@ const std::map<std::string, temporal::Value>& Reactor::concluded() const {
 
 std::map<std::string, temporal::Value> Reactor::told_conclusions() const {
   std::map<std::string, temporal::Value> out = concluded();
-  if (parts_->state.mission->executive.plans_continuously())
-    std::erase_if(out, [](const auto& one) { return !one.first.starts_with(kTrust); });
+  std::erase_if(out, [&](const auto& one) { return !parts_->state.tells_conclusion(one.first); });
   return out;
 }
 

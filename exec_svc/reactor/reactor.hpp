@@ -70,8 +70,7 @@ class Reactor {
   const std::map<std::string, temporal::Value>& observed() const;
   /// Returns what plans have made of timelines that nobody observes.
   const std::map<std::string, temporal::Value>& concluded() const;
-  /// Returns what of it is told to others. Of a plan whose engine plans all the time that is only who is not trusted:
-  /// such an engine keeps these timelines itself and knows, too, what tasks with commands have made of them.
+  /// Returns what of it is told to others (MissionState::tells_conclusion()).
   std::map<std::string, temporal::Value> told_conclusions() const;
   mission::AutonomyLevel autonomy() const;
   /// Returns whether nothing new starts, by order.

@@ -99,8 +99,6 @@ void RunningPlan::step(Time now, const ReactorInputs& inputs) {
 // Concludes values of timelines from activities without a command, which nobody else can tell. Each value counts,
 // also one that the next activity changes at the same time.
 void RunningPlan::conclude(const std::vector<StepStatus>& changes, Time now) {
-  // An engine that plans all the time keeps such timelines itself.
-  const bool engine_knows = state_->mission->executive.plans_continuously();
   for (const StepStatus& step : changes) {
     const temporal::PlanActivity* const activity = executive_.activity(step.activity);
     if (activity == nullptr || !activity->owner.empty() || !step.started) continue;
@@ -109,7 +107,8 @@ void RunningPlan::conclude(const std::vector<StepStatus>& changes, Time now) {
     const auto note = [&](const std::string& timeline, const std::optional<temporal::Value>& value) {
       if (!state_->beliefs.conclude(timeline, value)) return;
       news = true;
-      if (!engine_knows) state_->out.concluded.push_back({timeline, value.value_or(temporal::Value{})});
+      if (state_->tells_conclusion(timeline))
+        state_->out.concluded.push_back({timeline, value.value_or(temporal::Value{})});
     };
     for (const temporal::Impact& impact : activity->impacts) {
       if (impact.kind != temporal::ImpactKind::assign) continue;
