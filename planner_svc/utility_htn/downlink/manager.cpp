@@ -162,6 +162,11 @@ Settled settle(const Packing& packing, const Effort& effort, Counts& counts) {
     return {std::move(certified.placement), {.by = Proof::By::certificate, .earliest_too = true}};
   }
   const bool large = variables(packing) > effort.most_variables;
+  if (large && packing.items.size() > effort.most_items) {
+    ++counts.open;
+    return {std::move(certified.placement),
+            {.by = Proof::By::bound, .gap = certified.gap, .rank = certified.rank}};
+  }
   Solved solved = large ? select_and_fill(packing, certified.placement, effort.most_nodes_of_items)
                         : solve(packing, certified.placement, nodes(effort, variables(packing)));
   ++(solved.best && solved.earliest ? counts.solver : counts.open);

@@ -98,6 +98,7 @@ struct Effort {
   int most_nodes = 2'000;  ///< of CBC's search, for each rank; fewer for questions of more than 500 variables
   std::size_t most_variables = 2'000;  ///< pairs of product and window; above, CBC decides on products alone
   int most_nodes_of_items = 200;       ///< of that search, for each rank
+  std::size_t most_items = 2'000;      ///< products of a tier; above, CBC is not asked at all
 };
 
 /// Counts what answered the questions so far: of admits() whole questions, of assign()

@@ -201,6 +201,19 @@ TEST(RandomQuestions, TheOrderOfProductsDoesNotMatterAndNothingIsPrinted) {
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 
+TEST(RandomQuestions, WhatIsTooLargeForTheSolverIsAnsweredByTheCertificateAlone) {
+  std::mt19937_64 random(10);
+  Manager hasty(Effort{.most_variables = 0, .most_items = 0});
+  for (int round = 0; round < 50; ++round) {
+    const RandomQuestion question = draw(random, true);
+    const Assignment quick = hasty.assign(question.products, question.windows, question.limits);
+    ASSERT_TRUE(allowed(question, quick.window));
+    ASSERT_NE(quick.proof.by, Proof::By::solver);
+  }
+  EXPECT_GT(hasty.counts().open, 0U);
+  EXPECT_EQ(hasty.counts().solver, 0U);
+}
+
 TEST(RandomQuestions, SpentEffortIsSaidAndLeavesAGap) {
   std::mt19937_64 random(7);
   Manager hasty(Effort{.most_variables = 0, .most_nodes_of_items = 1});
