@@ -22,6 +22,7 @@ bool same(const FlexiblePlan& a, const FlexiblePlan& b) {
 }  // namespace
 
 bool VersionExchange::take(const FlexiblePlan& executed) {
+  if (!is_possible(executed.version)) return false;
   note(executed.version);
   if (newest_ && newest_->version != 0 && executed.version < newest_->version) return false;
   if (const FlexiblePlan* const known = history_.version(executed.version); known && same(*known, executed))
@@ -34,9 +35,14 @@ bool VersionExchange::take(const FlexiblePlan& executed) {
   return true;
 }
 
-void VersionExchange::note(std::uint32_t version) { last_version_ = std::max(last_version_, version); }
+void VersionExchange::note(std::uint32_t version) {
+  if (is_possible(version)) use(version);
+}
+
+void VersionExchange::use(std::uint32_t version) { last_version_ = std::max(last_version_, version); }
 
 void VersionExchange::hear(const Receipt& receipt) {
+  if (!is_possible(std::max(receipt.version, receipt.refused))) return;
   newest_ = receipt;
   note(std::max(receipt.version, receipt.refused));
   due_ = true;
@@ -90,13 +96,13 @@ std::string VersionExchange::apply(const PlanDelta& delta, FlexiblePlan& next) c
 }
 
 void VersionExchange::sent(FlexiblePlan plan) {
-  note(plan.version);
+  use(plan.version);
   engine_sent_ = plan.version;
   history_.keep(std::move(plan));
 }
 
 void VersionExchange::refuse(std::uint32_t version, const std::string& reason) {
-  note(version);
+  use(version);
   engine_sent_ = version;
   refused_.emplace();
   refused_->refused = version;

@@ -17,11 +17,16 @@ namespace roci::planner::engine {
 /// already is given to it whole.
 class VersionExchange {
  public:
+  /// Bounds the numbers that others are believed to have reached: with a version every second it takes a hundred years
+  /// to get there. A liar cannot use the numbers up, behind which no version could follow.
+  static constexpr std::uint32_t kHighestTold = 4'000'000'000;
+
   /// Takes in a plan that the executive reports. Returns whether it is news: unknown, and not older than the newest
   /// receipt. It may have the number of a plan that was sent here and yet be another one, sent by a process that died.
   bool take(const temporal::FlexiblePlan& executed);
-  /// Takes in that this number was used.
+  /// Takes in that somebody says that this number was used.
   void note(std::uint32_t version);
+  /// Leaves out a receipt of a version that cannot be.
   void hear(const Receipt& receipt);
 
   /// Returns whether the engine has something to hear of this. A refusal by its own checker is not news,
@@ -47,6 +52,8 @@ class VersionExchange {
 
  private:
   bool is_of_use() const;
+  bool is_possible(std::uint32_t version) const { return version <= kHighestTold || version <= last_version_; }
+  void use(std::uint32_t version);
 
   PlanHistory history_;
   std::optional<Receipt> newest_;

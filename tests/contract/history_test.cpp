@@ -134,6 +134,26 @@ TEST_P(History, LateJoinersRefuseNoDatagramThatIsAsLongAsItMayBe) {
   }
 }
 
+// Samples that no datagram holds come in fragments, and what was replaced between them as gaps: that ended Fast DDS
+// readers of Cyclone DDS writers, or let them turn in a circle.
+TEST_P(History, LateJoinersGetLargeSamplesBetweenGaps) {
+  constexpr std::size_t kInstances = 60;
+  const auto sender = open_writing();
+  const auto receiver = open_reading();
+  auto endpoint = goal_endpoint(latched(1));
+  endpoint.topic = "roci/large";
+  for (int round = 0; round < 3; ++round) {
+    const auto writer = sender->create_writer(endpoint, {});
+    for (std::size_t i = 0; i < kInstances; ++i) {
+      ASSERT_TRUE(writer->write(goal_of_size(std::to_string(1000 + i), i % 2 == 0 ? 130'000 : 70'000)));
+      ASSERT_TRUE(writer->write(goal("replaced", 1)));
+    }
+    Inbox inbox;
+    const auto reader = receiver->create_reader(endpoint, inbox.reader_events());
+    ASSERT_TRUE(inbox.wait_for_samples(kInstances + 1)) << "round " << round;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Transports, History, kEveryPairing, pairing_name);
 
 }  // namespace

@@ -3,6 +3,11 @@
 #include <fastrtps/utils/IPLocator.h>
 
 #include <fastdds/rtps/common/LocatorList.hpp>
+#include <mutex>
+#include <span>
+#include <vector>
+
+#include "services/vendors/guard/assembly.hpp"
 
 namespace roci::services::vendors::fastdds {
 
@@ -15,6 +20,9 @@ namespace {
 
 /// The submessage 0x80 at the end of each message of Debian's build, with its header.
 constexpr std::uint32_t kStatisticsSize = 60;
+
+/// Of eProsima, in the header of each of its messages.
+constexpr std::uint16_t kOwnVendor = 0x010f;
 
 std::optional<guard::Source> source_of(const Locator_t& locator) {
   if (locator.kind != LOCATOR_KIND_UDPv4) return std::nullopt;
@@ -36,7 +44,7 @@ class GuardedTransport : public transports::ChainingTransport {
   bool send(eprosima::fastrtps::rtps::SenderResource* sender, const octet* bytes, std::uint32_t size,
             transports::LocatorsIterator* begin, transports::LocatorsIterator* end,
             const std::chrono::steady_clock::time_point& deadline) override {
-    if (!guard_->is_secure()) return sender->send(bytes, size, begin, end, deadline);
+    if (!guard_->is_secure()) return send_plain(sender, {bytes, size}, begin, end, deadline);
     eprosima::fastrtps::rtps::LocatorList_t admitted;
     for (; *begin != *end; ++*begin) {
       const auto destination = source_of(**begin);
@@ -50,13 +58,39 @@ class GuardedTransport : public transports::ChainingTransport {
   // The bytes are in the receiving thread's own buffer; the vendor, too, changes them there.
   void receive(transports::TransportReceiverInterface* next, const octet* bytes, std::uint32_t size,
                const Locator_t& local, const Locator_t& remote) override {
-    const std::size_t admitted = guard_->admit({const_cast<octet*>(bytes), size}, source_of(remote));
-    if (admitted > 0) next->OnDataReceived(bytes, static_cast<std::uint32_t>(admitted), local, remote);
+    const std::span<octet> datagram{const_cast<octet*>(bytes), size};
+    std::size_t left = guard_->admit(datagram, source_of(remote));
+    if (left == 0) return;
+    std::vector<std::vector<octet>> whole;
+    {
+      const std::lock_guard lock(mutex_);
+      left = assembly_.take(datagram.first(left), kOwnVendor, whole);
+    }
+    for (const std::vector<octet>& sample : whole)
+      next->OnDataReceived(sample.data(), static_cast<std::uint32_t>(sample.size()), local, remote);
+    if (left > 0) next->OnDataReceived(bytes, static_cast<std::uint32_t>(left), local, remote);
   }
 
  private:
+  bool send_plain(eprosima::fastrtps::rtps::SenderResource* sender, std::span<const octet> message,
+                  transports::LocatorsIterator* begin, transports::LocatorsIterator* end,
+                  const std::chrono::steady_clock::time_point& deadline) {
+    std::vector<octet> requests;
+    {
+      const std::lock_guard lock(mutex_);
+      requests = assembly_.requests(message);
+    }
+    const auto size = static_cast<std::uint32_t>(message.size());
+    if (requests.empty()) return sender->send(message.data(), size, begin, end, deadline);
+    std::vector<octet> both(message.begin(), message.end());
+    both.insert(both.end(), requests.begin(), requests.end());
+    return sender->send(both.data(), static_cast<std::uint32_t>(both.size()), begin, end, deadline);
+  }
+
   const std::shared_ptr<guard::Guard> guard_;
   const std::shared_ptr<transports::TransportDescriptorInterface> descriptor_;
+  std::mutex mutex_;
+  guard::Assembly assembly_;
 };
 
 class GuardedDescriptor : public transports::ChainingTransportDescriptor {

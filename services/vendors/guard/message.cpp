@@ -138,6 +138,14 @@ void for_each_submessage(std::span<const std::uint8_t> message,
   }
 }
 
+std::size_t strip_submessages(
+    std::span<std::uint8_t> message,
+    const std::function<bool(std::span<const std::uint8_t> with_header, const Submessage&)>& keep) {
+  return strip(message, [&](std::span<const std::uint8_t> one) {
+    return keep(one, {one[0], one[1], ByteView{one.subspan(kSubmessageHeaderSize), is_little_endian(one)}});
+  });
+}
+
 std::size_t strip_vendor_submessages(std::span<std::uint8_t> message) {
   return strip(message, [](std::span<const std::uint8_t> one) { return one[0] < kFirstOfVendors; });
 }

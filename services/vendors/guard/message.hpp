@@ -30,6 +30,12 @@ GuidPrefix sender_of(std::span<const std::uint8_t> message);
 void for_each_submessage(std::span<const std::uint8_t> message,
                          const std::function<void(const Submessage&)>& see);
 
+/// Takes out of a message that passed what `keep` does not keep, and returns the new length. It is told each submessage
+/// with its header, and taken apart.
+std::size_t strip_submessages(
+    std::span<std::uint8_t> message,
+    const std::function<bool(std::span<const std::uint8_t> with_header, const Submessage&)>& keep);
+
 /// Takes the vendors' own submessages (ids from 0x80 on) out of a message that passed and returns its new length.
 /// Nobody here needs them: Fast DDS adds statistics to each of its messages, and Debian's build aborts when it reads
 /// unlikely ones.

@@ -5,6 +5,7 @@
 #include <memory>
 #include <random>
 
+#include "services/vendors/guard/assembly.hpp"
 #include "services/vendors/guard/message.hpp"
 #include "tests/contract/hostile/rtps_message.hpp"
 #include "tests/fuzz/rounds.hpp"
@@ -19,6 +20,7 @@ using services::contract::hostile::kInlineQos;
 using services::contract::hostile::Message;
 using services::contract::hostile::Parameters;
 using services::contract::hostile::Prefix;
+using services::vendors::guard::Assembly;
 using services::vendors::guard::DatagramAdmission;
 using services::vendors::guard::examine;
 using services::vendors::guard::kAdmissions;
@@ -52,6 +54,8 @@ std::vector<Bytes> seeds() {
       message().data(0, kParticipants, 3, kInlineQos | kData, guid_hash, participant).bytes(),
       message().data(0, kWriter, 1, kInlineQos | kData, guid_hash, Bytes(40, 1)).bytes(),
       message().fragment(0, kWriter, 2, 1, 2, 32, 64, Bytes(64)).gap(0, kWriter, 1, 4, 64).bytes(),
+      message().fragment(0, kWriter, 3, 2, 1, 32, 96, Bytes(32)).bytes(),
+      message().submessage(0x0e, 0, Bytes(kOwn.begin(), kOwn.end())).acknack(7, kWriter, 1, 1).bytes(),
       message().submessage(0x0e, 0, Bytes(12)).acknack(7, kWriter, 1, 40).submessage(0x12, 0, nack).bytes(),
       message()
           .submessage(0x33, 0, Bytes(24))
@@ -84,7 +88,10 @@ TEST(FuzzGuard, MutatedMessagesAreJudgedWithinTheirBytes) {
   const auto corpus = seeds();
   for (const Bytes& seed : corpus) ASSERT_EQ(examine(seed), DatagramAdmission::pass);
   Mutator mutator(14);
+  constexpr std::uint16_t kNobody = 0;  // so that all fragments are put together
   std::array<int, kAdmissions> seen{};
+  Assembly assembly;
+  int completed = 0, requested = 0;
   for (int i = 0; i < rounds(100'000); ++i) {
     const Bytes mutant = mutator.mutate(corpus[mutator.below(corpus.size())]);
     const auto exact = std::make_unique<std::uint8_t[]>(mutant.size());
@@ -99,7 +106,20 @@ TEST(FuzzGuard, MutatedMessagesAreJudgedWithinTheirBytes) {
     const std::size_t left = strip_farewells(datagram.first(size));
     ASSERT_LE(left, size);
     ASSERT_EQ(examine(datagram.first(left)), DatagramAdmission::pass) << "round " << i;
+    const auto requests = assembly.requests(datagram.first(left));
+    std::vector<std::vector<std::uint8_t>> whole;
+    const std::size_t rest = assembly.take(datagram.first(left), kNobody, whole);
+    ASSERT_LE(rest, left);
+    if (rest > 0) {
+      ASSERT_EQ(examine(datagram.first(rest)), DatagramAdmission::pass) << "round " << i;
+    }
+    for (const auto& one : whole) ASSERT_EQ(examine(one), DatagramAdmission::pass) << "round " << i;
+    ASSERT_LE(assembly.kept_bytes(), Assembly::kMostBytes);
+    completed += static_cast<int>(whole.size());
+    requested += requests.empty() ? 0 : 1;
   }
+  EXPECT_GT(completed, 0);
+  EXPECT_GT(requested, 0);
   for (const DatagramAdmission admission :
        {DatagramAdmission::pass, DatagramAdmission::no_rtps, DatagramAdmission::cut,
         DatagramAdmission::unknown_submessage, DatagramAdmission::bad_numbers,

@@ -114,6 +114,23 @@ TEST_F(LostVersion, WhatIsRefusedIsSentAgainAfterAWhile) {
   EXPECT_EQ(base_after(at(50s)), std::nullopt);
 }
 
+// Behind the highest number there is no version could follow.
+TEST_F(LostVersion, ANumberThatCannotHaveBeenReachedIsNotBelieved) {
+  ASSERT_EQ(base_after(beginning()), 0U);
+  base_after(receipt(1s, 1));
+  exchange_.note(4'294'967'295);
+  base_after(receipt(2s, 4'294'967'295));
+  base_after(receipt(3s, 1, 4'294'967'295));
+  temporal::FlexiblePlan forged;
+  forged.version = 4'294'967'295;
+  EXPECT_FALSE(exchange_.take(forged));
+  ASSERT_EQ(base_after(at(10s)), 1U) << "what starts first is committed";
+  EXPECT_EQ(exchange_.last_version(), 2U);
+  exchange_.note(engine::VersionExchange::kHighestTold);
+  EXPECT_TRUE(base_after(at(20s))) << "there is room behind what is believed";
+  EXPECT_EQ(exchange_.last_version(), engine::VersionExchange::kHighestTold + 1);
+}
+
 TEST_F(LostVersion, StepsTellWhatTheirCycleDid) {
   StepInputs first = beginning();
   exchange_.give(first);
