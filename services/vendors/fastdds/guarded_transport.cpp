@@ -21,6 +21,9 @@ namespace {
 /// The submessage 0x80 at the end of each message of Debian's build, with its header.
 constexpr std::uint32_t kStatisticsSize = 60;
 
+/// That a datagram has room for (UDP over IPv4).
+constexpr std::size_t kMostBytes = 65'507;
+
 /// Of eProsima, in the header of each of its messages.
 constexpr std::uint16_t kOwnVendor = 0x010f;
 
@@ -81,7 +84,9 @@ class GuardedTransport : public transports::ChainingTransport {
       requests = assembly_.requests(message);
     }
     const auto size = static_cast<std::uint32_t>(message.size());
-    if (requests.empty()) return sender->send(message.data(), size, begin, end, deadline);
+    // What has no room is asked for behind the next acknowledgement.
+    if (requests.empty() || message.size() + requests.size() > kMostBytes)
+      return sender->send(message.data(), size, begin, end, deadline);
     std::vector<octet> both(message.begin(), message.end());
     both.insert(both.end(), requests.begin(), requests.end());
     return sender->send(both.data(), static_cast<std::uint32_t>(both.size()), begin, end, deadline);
