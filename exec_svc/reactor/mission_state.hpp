@@ -40,8 +40,8 @@ struct MissionState {
   /// runs, under a hold never.
   bool replan_due() const;
   /// Returns whether others are told what was concluded of a timeline. Where the engine plans all the time that is only
-  /// who is not trusted: such an engine keeps the timelines of its plan itself, and knows, too, what tasks with commands
-  /// have made of them.
+  /// who is not trusted: such an engine keeps the timelines of its plan itself, and knows, too, what tasks with
+  /// commands have made of them.
   bool tells_conclusion(const std::string& timeline) const;
   /// Reports an event to operators.
   void report(Severity level, std::string code, std::string text);

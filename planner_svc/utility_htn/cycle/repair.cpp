@@ -158,8 +158,8 @@ bool Cycle::place_rests(std::uint32_t first, Time from) {
 }
 
 // What follows a link that is late is late itself. Where the cycle repairs it is given a place beside all others; else
-// nothing is searched for (R100): it is pushed, and the executive waits with it until its preconditions hold (task push,
-// R98).
+// nothing is searched for (R100): it is pushed, and the executive waits with it until its preconditions hold (task
+// push, R98).
 bool Cycle::keep_order(Time now, Report& report) {
   const Time from = now + network_.cycle.commit_window;
   std::vector<std::uint32_t> late;

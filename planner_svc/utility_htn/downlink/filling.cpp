@@ -123,8 +123,8 @@ class Filling {
     return static_cast<std::uint64_t>(std::clamp(chosen_.bytes[bin] + spare, 0.0, left));
   }
 
-  // Whatever is there by now is there for all bins to come, so any of it will do: what comes first in the order, and with
-  // the last of that and the next the bin is closed.
+  // Whatever is there by now is there for all bins to come, so any of it will do: what comes first in the order; and
+  // with the last of that and the next the bin is closed.
   void fill_bin(std::uint32_t bin) {
     const std::uint64_t most = most_bytes(bin);
     Items here;

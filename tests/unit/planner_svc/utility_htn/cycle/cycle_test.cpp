@@ -202,7 +202,7 @@ TEST_F(CycleTest, AValueOutOfItsRangeIsRefusedInNumbersThatOneCanRead) {
   EXPECT_THAT(refused, AllOf(HasSubstr(" = 1e+30 is not between "), Not(HasSubstr("000000"))));
 }
 
-// R98: it waits for the arm that another image holds, as the executive waits with it; a place behind that is not searched for.
+// R98: it waits for the arm that another image holds, as the executive waits with it; no place behind that is searched.
 TEST_F(CycleTest, WithoutRepairsWhatFollowsALateLinkIsPushedAndNoPlaceIsSearchedFor) {
   for (const bool repairs : {false, true}) {
     Cycle cycle = make({.repairs = repairs, .optimizes = false, .schedules_again = repairs});
