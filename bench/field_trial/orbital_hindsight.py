@@ -54,14 +54,14 @@ def constants(programs: Programs, folder: Path) -> problem.Table:
 def condition(mission: str, goal: Goal) -> list:
     """What mission.yaml says under `goal` of the goal's kind: the problem leaves out what holds at the start."""
     kind = mission[mission.index(f"\n  {goal.kind}:\n", mission.index("\ngoal_kinds:\n")) :]
-    formulas = re.findall(r'"([^"]*)"', re.split(r"\n(?:  )?  \w", kind.split("\n    goal:")[1])[0])
+    formulas = re.findall(r'"([^"]*)"', re.split(r"\n {2,4}\w", kind.split("\n    goal:")[1])[0])
     for name, value in goal.arguments:
         formulas = [formula.replace(f"{{{name}}}", value) for formula in formulas]
     return ["and", *(read(formula) for formula in formulas)]
 
 
-def in_time(goal: Goal, scenario: Scenario) -> tuple[float, tuple[str, ...]] | None:
-    """A module that fails works in its slot until then: when its goal's window closes at the latest, after the first call."""
+def failure_of(goal: Goal, scenario: Scenario) -> tuple[float, tuple[str, ...]] | None:
+    """Seconds from the first call at which the window of such a goal closes, since its module fails then, and the fact of the window."""
     arguments = dict(goal.arguments)
     if goal.kind != "install" or arguments["module"] not in scenario.failing:
         return None
@@ -86,7 +86,7 @@ class Instance:
         mission = (programs.mission / "mission.yaml").read_text()
         self.conditions = {goal.id: condition(mission, goal) for goal in goals}
         for goal in goals:
-            if closes := in_time(goal, scenario):
+            if closes := failure_of(goal, scenario):
                 self.conditions[goal.id].remove(["works", closes[1][1]])
                 if goal not in done:
                     close(self.problem, *closes)

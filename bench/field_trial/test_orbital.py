@@ -11,7 +11,7 @@ import problem
 from drop_order import broken_drop_order
 from flights import Flight, GoalEnd
 from orbital_bound import Bound, clauses
-from orbital_hindsight import close, condition, in_time
+from orbital_hindsight import close, condition, failure_of
 from orbital_reference import Scheduler
 from orbital_scenarios import Goal, Scenario
 from trials import TRIALS
@@ -107,8 +107,8 @@ class Hindsight(unittest.TestCase):
     def test_a_module_that_fails_is_in_its_slot_before_or_never(self):
         goal = Goal("h1", "ground", "install", "hard", 1, (("module", "radar-1"), ("slot", "s3")))
         scenario = Scenario(1, 600000, [], {}, {}, [], [], failing={"radar-1": 210})
-        self.assertEqual(in_time(goal, scenario), (200.0, ("allowed", "radar-1", "s3")))
-        self.assertIsNone(in_time(goal, Scenario(1, 600000, [], {}, {}, [], [])))
+        self.assertEqual(failure_of(goal, scenario), (200.0, ("allowed", "radar-1", "s3")))
+        self.assertIsNone(failure_of(goal, Scenario(1, 600000, [], {}, {}, [], [])))
 
     def test_a_window_that_opens_after_the_failure_does_not_open(self):
         opening = "(wanted m s2)\n(at 300 (allowed m s2))\n(at 900 (not (allowed m s2)))"

@@ -23,7 +23,7 @@ bool same(const FlexiblePlan& a, const FlexiblePlan& b) {
 
 bool VersionExchange::take(const FlexiblePlan& executed) {
   if (!is_possible(executed.version)) return false;
-  note(executed.version);
+  use(executed.version);
   if (newest_ && newest_->version != 0 && executed.version < newest_->version) return false;
   if (const FlexiblePlan* const known = history_.version(executed.version); known && same(*known, executed))
     return false;
@@ -42,9 +42,10 @@ void VersionExchange::note(std::uint32_t version) {
 void VersionExchange::use(std::uint32_t version) { last_version_ = std::max(last_version_, version); }
 
 void VersionExchange::hear(const Receipt& receipt) {
-  if (!is_possible(std::max(receipt.version, receipt.refused))) return;
+  const std::uint32_t version = std::max(receipt.version, receipt.refused);
+  if (!is_possible(version)) return;
   newest_ = receipt;
-  note(std::max(receipt.version, receipt.refused));
+  use(version);
   due_ = true;
   if (!is_of_use()) return;
   last_executed_ = receipt.version;

@@ -170,6 +170,10 @@ class Delivery {
 
  private:
   struct Question;
+  struct Spent {
+    std::uint32_t sol = 0;
+    double joules = 0;
+  };
   Question question(const search::PlannedData& planned, const model::Values& values,
                     temporal::Time now) const;
   void keep_what_is_sent(Question& question, temporal::Time now) const;
@@ -187,10 +191,6 @@ class Delivery {
   std::vector<Existing> existing_;                   // by data.id
   std::vector<assessor::ExistingProduct> products_;  // the same
   std::map<std::uint32_t, double> spent_;            // joules, by sol
-  struct Spent {
-    std::uint32_t sol = 0;
-    double joules = 0;
-  };
   std::map<temporal::timelines::TaskId, Spent> executed_;
   Counts counts_;
   temporal::Time last_sent_{0};  // when the newest product was sent

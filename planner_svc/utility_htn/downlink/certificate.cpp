@@ -14,8 +14,6 @@ using Choices = std::vector<std::vector<std::uint32_t>>;
 // Sums of doubles err in the last digits; a bound is never to be too small.
 double raised(double bound) { return bound * (1 + 1e-9) + 1e-6; }
 
-double size_of(const Item& item) { return std::max<double>(1, static_cast<double>(item.bytes)); }
-
 Placement first_fit(const Packing& packing, const Choices& allowed, const Order& order) {
   Placement out(packing.items.size());
   Room room(packing);
@@ -36,20 +34,6 @@ Order ordered(std::size_t count, const Less& less) {
   std::iota(out.begin(), out.end(), std::size_t{0});
   std::ranges::stable_sort(out, less);
   return out;
-}
-
-// The most utility for each byte first, by rank.
-Order densest_first(const Packing& packing) {
-  return ordered(packing.items.size(), [&](std::size_t a, std::size_t b) {
-    const Item& one = packing.items[a];
-    const Item& other = packing.items[b];
-    for (std::size_t rank = 0; rank < packing.ranks; ++rank) {
-      const double here = static_cast<double>(one.values[rank]) / size_of(one);
-      const double there = static_cast<double>(other.values[rank]) / size_of(other);
-      if (here != there) return here > there;
-    }
-    return one.bytes < other.bytes;
-  });
 }
 
 // Within each sol the bins that send most for its energy come first.
@@ -74,7 +58,7 @@ std::vector<Placement> greedy_placements(const Packing& packing, const Choices& 
   const auto first = [&](std::size_t i) { return packing.items[i].first; };
   const std::size_t count = packing.items.size();
   const std::vector<Order> orders = {
-      densest_first(packing),
+      ordered(count, [&](auto a, auto b) { return denser(packing, a, b); }),
       ordered(count, [&](auto a, auto b) { return bytes(a) < bytes(b); }),
       ordered(count, [&](auto a, auto b) { return bytes(a) > bytes(b); }),
       ordered(
@@ -94,10 +78,9 @@ std::vector<Placement> greedy_placements(const Packing& packing, const Choices& 
 double most_bytes(const Packing& packing, std::size_t from, std::size_t to) {
   double total = 0;
   std::vector<std::vector<std::size_t>> by_sol(packing.sol_joules.size());
-  std::vector<double> joules = packing.sol_joules;
+  std::vector<double> joules = joules_left(packing);
   for (std::size_t bin = 0; bin < packing.bins.size(); ++bin) {
     const Bin& here = packing.bins[bin];
-    if (here.sol) joules[*here.sol] -= here.joules_per_byte * static_cast<double>(here.used);
     if (bin < from || bin > to || here.used >= here.capacity) continue;
     if (here.sol) {
       by_sol[*here.sol].push_back(bin);
@@ -120,14 +103,10 @@ double most_bytes(const Packing& packing, std::size_t from, std::size_t to) {
   return raised(total);
 }
 
-double value_of(const Packing& packing, std::size_t i, std::size_t rank) {
-  return rank < packing.ranks ? static_cast<double>(packing.items[i].values[rank]) : 1.0;
-}
-
 // The bound of one rank: `forced` items are in whatever they take, for a rank above has proven that they are.
 double fractional_bound(const Packing& packing, const Choices& allowed, const std::vector<double>& from,
                         std::size_t rank, const std::vector<bool>& forced) {
-  const auto value = [&](std::size_t i) { return value_of(packing, i, rank); };
+  const auto value = [&](std::size_t i) { return static_cast<double>(value_of(packing, i, rank)); };
   const Order order = ordered(packing.items.size(), [&](std::size_t a, std::size_t b) {
     if (forced[a] != forced[b]) return static_cast<bool>(forced[a]);
     return value(a) / size_of(packing.items[a]) > value(b) / size_of(packing.items[b]);

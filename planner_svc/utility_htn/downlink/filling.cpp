@@ -60,17 +60,16 @@ class Filling {
       : packing_(packing),
         chosen_(chosen),
         room_(packing),
-        spare_joules_(packing.sol_joules),
+        spare_joules_(joules_left(packing)),
         placement_(packing.items.size()) {
     for (std::size_t i = 0; i < packing.items.size(); ++i)
       if (chosen.items[i]) waiting_.push_back(i);
     for (std::size_t bin = 0; bin < packing.bins.size(); ++bin)
       if (const Bin& here = packing.bins[bin]; here.sol)
-        spare_joules_[*here.sol] -=
-            here.joules_per_byte * (chosen.bytes[bin] + static_cast<double>(here.used));
+        spare_joules_[*here.sol] -= here.joules_per_byte * chosen.bytes[bin];
     std::ranges::stable_sort(waiting_, [&](std::size_t a, std::size_t b) {
       return attempt == 0   ? bytes(a) > bytes(b)
-             : attempt == 1 ? denser(a, b)
+             : attempt == 1 ? denser(packing, a, b)
                             : shuffled(a, attempt) < shuffled(b, attempt);
     });
   }
@@ -79,7 +78,7 @@ class Filling {
     for (std::uint32_t bin = 0; bin < packing_.bins.size(); ++bin) fill_bin(bin);
     Items order(packing_.items.size());
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-    std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) { return denser(a, b); });
+    std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) { return denser(packing_, a, b); });
     for (const std::size_t i : order)
       if (!placement_[i] && !put_anywhere(i) && !make_room(i) && chosen_.items[i]) exchange(i);
     return std::move(placement_);
@@ -88,30 +87,22 @@ class Filling {
  private:
   std::uint64_t bytes(std::size_t item) const { return packing_.items[item].bytes; }
 
-  // The more utility for each byte, by rank.
-  bool denser(std::size_t a, std::size_t b) const {
-    const Item& one = packing_.items[a];
-    const Item& other = packing_.items[b];
-    for (std::size_t rank = 0; rank < packing_.ranks; ++rank) {
-      const double here = static_cast<double>(one.values[rank]) * static_cast<double>(other.bytes);
-      const double there = static_cast<double>(other.values[rank]) * static_cast<double>(one.bytes);
-      if (here != there) return here > there;
-    }
-    return one.bytes < other.bytes;
-  }
-
   void put(std::size_t item, std::uint32_t bin) {
     room_.take(bytes(item), bin);
     placement_[item] = bin;
   }
 
+  // Returns the first bin with room for it, but for one.
+  std::optional<std::uint32_t> free_bin(std::size_t item, std::optional<std::uint32_t> but = {}) const {
+    for (std::uint32_t bin = packing_.items[item].first; bin < packing_.bins.size(); ++bin)
+      if (bin != but && room_.fits(bytes(item), bin)) return bin;
+    return std::nullopt;
+  }
+
   bool put_anywhere(std::size_t item) {
-    for (std::uint32_t bin = packing_.items[item].first; bin < packing_.bins.size(); ++bin) {
-      if (!room_.fits(bytes(item), bin)) continue;
-      put(item, bin);
-      return true;
-    }
-    return false;
+    const auto bin = free_bin(item);
+    if (bin) put(item, *bin);
+    return bin.has_value();
   }
 
   // What it is to take, and what nobody else is to take of its sol's energy.
@@ -164,7 +155,7 @@ class Filling {
     for (std::uint32_t bin = packing_.items[item].first; bin < packing_.bins.size(); ++bin) {
       std::vector<std::pair<std::size_t, std::uint32_t>> moved;
       for (const std::size_t i : in(bin)) {
-        const auto other = another(i, bin);
+        const auto other = free_bin(i, bin);
         if (!other) continue;
         moved.emplace_back(i, *other);
         room_.give_back(bytes(i), bin);
@@ -190,19 +181,13 @@ class Filling {
     return out;
   }
 
-  std::optional<std::uint32_t> another(std::size_t item, std::uint32_t than) const {
-    for (std::uint32_t bin = packing_.items[item].first; bin < packing_.bins.size(); ++bin)
-      if (bin != than && room_.fits(bytes(item), bin)) return bin;
-    return std::nullopt;
-  }
-
   // Takes out what is worth least until there is room for this one, as long as that is less than it is worth.
   void exchange(std::size_t item) {
     Items among, out;
     const Item& wanted = packing_.items[item];
     for (std::size_t i = 0; i < placement_.size(); ++i)
       if (placement_[i] >= wanted.first && packing_.items[i].values < wanted.values) among.push_back(i);
-    std::ranges::stable_sort(among, [&](std::size_t a, std::size_t b) { return denser(b, a); });
+    std::ranges::stable_sort(among, [&](std::size_t a, std::size_t b) { return denser(packing_, b, a); });
     const Placement before = placement_;
     std::vector<std::int64_t> loss(packing_.ranks, 0);
     for (const std::size_t i : among) {

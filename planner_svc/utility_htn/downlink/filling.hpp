@@ -7,7 +7,7 @@
 
 namespace roci::planner::utility_htn::downlink {
 
-/// Names items, and how many of their bytes go into each bin, in as far as bytes alone are told apart.
+/// Names items, and how many bytes each bin would take of them if they could be divided.
 struct Chosen {
   std::vector<bool> items;
   std::vector<double> bytes;  ///< by bin, beside what it has used

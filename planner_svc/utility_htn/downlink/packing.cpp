@@ -1,5 +1,7 @@
 #include "planner_svc/utility_htn/downlink/packing.hpp"
 
+#include <algorithm>
+
 namespace roci::planner::utility_htn::downlink {
 namespace {
 
@@ -7,6 +9,26 @@ namespace {
 constexpr double kLastDigits = 1 + 1e-12;
 
 }  // namespace
+
+double size_of(const Item& item) { return std::max<double>(1, static_cast<double>(item.bytes)); }
+
+bool denser(const Packing& packing, std::size_t one, std::size_t other) {
+  const Item& a = packing.items[one];
+  const Item& b = packing.items[other];
+  for (std::size_t rank = 0; rank < packing.ranks; ++rank) {
+    const double here = static_cast<double>(a.values[rank]) / size_of(a);
+    const double there = static_cast<double>(b.values[rank]) / size_of(b);
+    if (here != there) return here > there;
+  }
+  return a.bytes < b.bytes;
+}
+
+std::vector<double> joules_left(const Packing& packing) {
+  std::vector<double> out = packing.sol_joules;
+  for (const Bin& bin : packing.bins)
+    if (bin.sol) out[*bin.sol] -= bin.joules_per_byte * static_cast<double>(bin.used);
+  return out;
+}
 
 Worth worth(const Packing& packing, const Placement& placement) {
   Worth out{.sums = std::vector<std::int64_t>(packing.ranks, 0)};

@@ -34,6 +34,17 @@ struct Packing {
   std::size_t ranks = 0;           ///< each item has so many values
 };
 
+/// Returns what an item is worth at a rank; at the one behind all of utility each counts as 1.
+inline std::int64_t value_of(const Packing& packing, std::size_t item, std::size_t rank) {
+  return rank < packing.ranks ? packing.items[item].values[rank] : 1;
+}
+/// Returns its bytes, one at least, so that something can be divided by them.
+double size_of(const Item& item);
+/// Returns whether the one has more utility for each byte than the other, by rank.
+bool denser(const Packing& packing, std::size_t one, std::size_t other);
+/// Returns the joules that each sol has beside what its bins have used.
+std::vector<double> joules_left(const Packing& packing);
+
 /// Gives the bin of each item (X_ij).
 using Placement = std::vector<std::optional<std::uint32_t>>;
 

@@ -72,9 +72,7 @@ class Selection {
   }
 
  private:
-  std::int64_t value(std::size_t i, std::size_t rank) const {
-    return rank < packing_.ranks ? packing_.items[i].values[rank] : 1;
-  }
+  std::int64_t value(std::size_t i, std::size_t rank) const { return value_of(packing_, i, rank); }
 
   Chosen with_lower_ranks(std::size_t from) {
     for (std::size_t rank = from; rank <= packing_.ranks; ++rank) {
@@ -137,11 +135,9 @@ class Selection {
   }
 
   void add_energies(std::size_t before, std::vector<Row>& out) const {
-    for (std::size_t sol = 0; sol < packing_.sol_joules.size(); ++sol) {
-      double left = packing_.sol_joules[sol];
-      for (const Bin& bin : packing_.bins)
-        if (bin.sol == sol) left -= bin.joules_per_byte * static_cast<double>(bin.used);
-      const double scale = std::max(1.0, left);
+    const std::vector<double> joules = joules_left(packing_);
+    for (std::size_t sol = 0; sol < joules.size(); ++sol) {
+      const double left = joules[sol], scale = std::max(1.0, left);
       Row row{.upper = std::max(0.0, left) / scale};
       for (std::size_t bin = 0; bin < packing_.bins.size(); ++bin)
         if (packing_.bins[bin].sol == sol)

@@ -93,11 +93,9 @@ class Program {
   }
 
   void add_energies() {
-    for (std::size_t sol = 0; sol < packing_.sol_joules.size(); ++sol) {
-      double left = packing_.sol_joules[sol];
-      for (const Bin& bin : packing_.bins) {
-        if (bin.sol == sol) left -= bin.joules_per_byte * static_cast<double>(bin.used);
-      }
+    const std::vector<double> joules = joules_left(packing_);
+    for (std::size_t sol = 0; sol < joules.size(); ++sol) {
+      const double left = joules[sol];
       if (left <= 0) continue;  // nothing fits there, so no pair stands for it
       Row row{.upper = 1};
       for (std::size_t p = 0; p < pairs_.size(); ++p) {
@@ -153,20 +151,18 @@ Solved solve(const Packing& packing, const Placement& start, int most_nodes) {
   const auto allowed = choices(packing);
   Program program(packing);
   for (std::uint32_t rank = 0; rank <= packing.ranks; ++rank) {  // the last one counts what is sent
-    const auto value_of = [&](std::size_t i) {
-      return rank < packing.ranks ? static_cast<double>(packing.items[i].values[rank]) : 1.0;
-    };
+    const auto value = [&](std::size_t i) { return static_cast<double>(value_of(packing, i, rank)); };
     const auto sum = [&] {
       double total = 0;
-      for (std::size_t i = 0; i < out.placement.size(); ++i) total += out.placement[i] ? value_of(i) : 0;
+      for (std::size_t i = 0; i < out.placement.size(); ++i) total += out.placement[i] ? value(i) : 0;
       return total;
     };
     double most = 0;
-    for (std::size_t i = 0; i < allowed.size(); ++i) most += allowed[i].empty() ? 0 : value_of(i);
+    for (std::size_t i = 0; i < allowed.size(); ++i) most += allowed[i].empty() ? 0 : value(i);
     if (most == 0) continue;
     if (sum() < most) {
       const Answer answer =
-          program.improve([&](std::size_t i, std::uint32_t) { return value_of(i); }, sum(), most_nodes);
+          program.improve([&](std::size_t i, std::uint32_t) { return value(i); }, sum(), most_nodes);
       if (answer.better) out.placement = *answer.better;
       if (!answer.ended) {
         const double bound = std::min(most, std::floor(answer.bound * (1 + 1e-9)));
@@ -175,7 +171,7 @@ Solved solve(const Packing& packing, const Placement& start, int most_nodes) {
         if (out.gap > 0) return out;
       }
     }
-    program.keep(value_of, sum());
+    program.keep(value, sum());
   }
   out.best = true;
   const Worth here = worth(packing, out.placement);

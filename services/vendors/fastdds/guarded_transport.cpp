@@ -21,10 +21,10 @@ namespace {
 /// The submessage 0x80 at the end of each message of Debian's build, with its header.
 constexpr std::uint32_t kStatisticsSize = 60;
 
-/// That a datagram has room for (UDP over IPv4).
+/// Bounds a datagram (UDP over IPv4).
 constexpr std::size_t kMostBytes = 65'507;
 
-/// Of eProsima, in the header of each of its messages.
+/// Names eProsima in the header of its messages.
 constexpr std::uint16_t kOwnVendor = 0x010f;
 
 std::optional<guard::Source> source_of(const Locator_t& locator) {

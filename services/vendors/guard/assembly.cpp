@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "services/vendors/guard/data.hpp"
 #include "services/vendors/guard/parameters.hpp"
 #include "services/vendors/guard/rtps_ids.hpp"
 
@@ -10,7 +11,6 @@ namespace roci::services::vendors::guard {
 namespace {
 
 constexpr std::size_t kVendorAt = 6;
-constexpr std::size_t kFixed = 32;            // of DATA_FRAG, up to what its offset points behind
 constexpr std::uint8_t kFragmentKeyFlag = 4;  // where DATA has kDataFlag (RTPS 2.3, 9.4.5.4)
 
 void append(std::vector<std::uint8_t>& out, std::span<const std::uint8_t> bytes) {
@@ -30,14 +30,12 @@ void append_u32(std::vector<std::uint8_t>& out, std::uint32_t value) {
 
 bool is_context(std::uint8_t id) { return id == kInfoTimestamp || id == kInfoDestination || id == kInfoSource; }
 
-bool is_of_user(const Submessage& fragment) { return (fragment.body.bytes[11] & 0xc0) != 0xc0; }
-
 }  // namespace
 
 std::size_t Assembly::take(std::span<std::uint8_t> message, std::uint16_t own_vendor,
                            std::vector<std::vector<std::uint8_t>>& whole) {
   if (ByteView{message, false}.u16(kVendorAt) == own_vendor) return message.size();
-  const std::vector<std::uint8_t> header(message.begin(), message.begin() + kHeaderSize);
+  const std::span<const std::uint8_t> header = message.first(kHeaderSize);
   std::vector<std::uint8_t> context;
   bool speaks = false;
   const auto keep = [&](std::span<const std::uint8_t> one, const Submessage& parsed) {

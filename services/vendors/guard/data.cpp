@@ -8,13 +8,14 @@
 namespace roci::services::vendors::guard {
 namespace {
 
+bool is_of_user(const ByteView& entity_id) { return (entity_id.bytes[3] & 0xc0) != 0xc0; }
+
 // What each GUID-keyed writer of discovery and liveliness tells of (RTPS 2.3, 9.3.1.3; DDS Security 1.1, 7.3.7.1).
 enum class WriterKind { user, discovery, liveliness, other_builtin };
 
 WriterKind kind_of_writer(const ByteView& entity_id) {
-  const auto bytes = entity_id.bytes;
-  if ((bytes[3] & 0xc0) != 0xc0) return WriterKind::user;
-  switch (ByteView{bytes, false}.u32(0)) {
+  if (is_of_user(entity_id)) return WriterKind::user;
+  switch (ByteView{entity_id.bytes, false}.u32(0)) {
     case kParticipants:
     case kTopics:
     case kWriters:
@@ -74,6 +75,8 @@ DatagramAdmission liveliness_payload(const ByteView& payload, const GuidPrefix& 
 }
 
 }  // namespace
+
+bool is_of_user(const Submessage& message) { return is_of_user(message.body.part(8, 4)); }
 
 DatagramAdmission examine_data(const Submessage& message, const GuidPrefix& sender) {
   constexpr std::size_t kFixed = 20;

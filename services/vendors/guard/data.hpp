@@ -5,6 +5,8 @@
 
 namespace roci::services::vendors::guard {
 
+/// Returns whether DATA or DATA_FRAG is of a writer that no protocol has built in.
+bool is_of_user(const Submessage&);
 DatagramAdmission examine_data(const Submessage&, const GuidPrefix& sender);
 DatagramAdmission examine_data_fragment(const Submessage&, const GuidPrefix& sender);
 

@@ -16,6 +16,11 @@ constexpr std::size_t kSubmessageHeaderSize = 4;
 // Of the submessage at the beginning of these bytes.
 bool is_little_endian(std::span<const std::uint8_t> rest) { return (rest[1] & kLittleEndianFlag) != 0; }
 
+// Takes apart the submessage of which these are the bytes.
+Submessage parsed(std::span<const std::uint8_t> one) {
+  return {one[0], one[1], ByteView{one.subspan(kSubmessageHeaderSize), is_little_endian(one)}};
+}
+
 // Where a submessage ends, seen from its own beginning; 0 if it reaches over the end of the message.
 std::size_t size_of_first(std::span<const std::uint8_t> rest) {
   if (rest.size() < kSubmessageHeaderSize) return 0;
@@ -45,7 +50,7 @@ std::size_t strip(std::span<std::uint8_t> message, Keep keep) {
 // The participants' writer disposes or unregisters a participant, which a sample without data does as well.
 bool is_farewell(std::span<const std::uint8_t> one) {
   if (one[0] != kData) return false;
-  const ByteView body{one.subspan(kSubmessageHeaderSize), is_little_endian(one)};
+  const ByteView body = parsed(one).body;
   if (ByteView{body.part(8, 4).bytes, false}.u32(0) != kParticipants) return false;
   if ((one[1] & kDataFlag) == 0) return true;
   if ((one[1] & kInlineQosFlag) == 0) return false;
@@ -106,10 +111,8 @@ DatagramAdmission examine(std::span<const std::uint8_t> datagram, SkippedNumbers
   for (auto rest = datagram.subspan(kHeaderSize); !rest.empty();) {
     const std::size_t size = size_of_first(rest);
     if (size == 0) return DatagramAdmission::cut;
-    const ByteView body{rest.subspan(kSubmessageHeaderSize, size - kSubmessageHeaderSize),
-                        is_little_endian(rest)};
     if (rest[0] < kFirstOfVendors) {
-      const Submessage one{rest[0], rest[1], body};
+      const Submessage one = parsed(rest.first(size));
       const DatagramAdmission admission = examine_submessage(one, sender);
       if (admission != DatagramAdmission::pass) return admission;
       skipped += skipped_by(one);
@@ -131,9 +134,7 @@ void for_each_submessage(std::span<const std::uint8_t> message,
   for (auto rest = message.subspan(kHeaderSize); !rest.empty();) {
     const std::size_t size = size_of_first(rest);
     if (size == 0) return;
-    see({rest[0], rest[1],
-         ByteView{rest.subspan(kSubmessageHeaderSize, size - kSubmessageHeaderSize),
-                  is_little_endian(rest)}});
+    see(parsed(rest.first(size)));
     rest = rest.subspan(size);
   }
 }
@@ -141,9 +142,7 @@ void for_each_submessage(std::span<const std::uint8_t> message,
 std::size_t strip_submessages(
     std::span<std::uint8_t> message,
     const std::function<bool(std::span<const std::uint8_t> with_header, const Submessage&)>& keep) {
-  return strip(message, [&](std::span<const std::uint8_t> one) {
-    return keep(one, {one[0], one[1], ByteView{one.subspan(kSubmessageHeaderSize), is_little_endian(one)}});
-  });
+  return strip(message, [&](std::span<const std::uint8_t> one) { return keep(one, parsed(one)); });
 }
 
 std::size_t strip_vendor_submessages(std::span<std::uint8_t> message) {
@@ -158,8 +157,7 @@ std::size_t strip_plain_submessages(std::span<std::uint8_t> message) {
   if (is_encrypted(message)) return message.size();
   bool speaks = false;
   const std::size_t length = strip(message, [&speaks](std::span<const std::uint8_t> one) {
-    const ByteView body{one.subspan(kSubmessageHeaderSize), is_little_endian(one)};
-    const Plain kind = plain_kind_of({one[0], one[1], body});
+    const Plain kind = plain_kind_of(parsed(one));
     speaks = speaks || kind == Plain::speech;
     return kind != Plain::refused;
   });
