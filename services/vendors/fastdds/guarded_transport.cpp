@@ -78,18 +78,14 @@ class GuardedTransport : public transports::ChainingTransport {
   bool send_plain(eprosima::fastrtps::rtps::SenderResource* sender, std::span<const octet> message,
                   transports::LocatorsIterator* begin, transports::LocatorsIterator* end,
                   const std::chrono::steady_clock::time_point& deadline) {
-    std::vector<octet> requests;
+    std::vector<octet> other;
     {
       const std::lock_guard lock(mutex_);
-      requests = assembly_.requests(message);
+      other = assembly_.with_requests(message);
     }
-    const auto size = static_cast<std::uint32_t>(message.size());
     // What has no room is asked for behind the next acknowledgement.
-    if (requests.empty() || message.size() + requests.size() > kMostBytes)
-      return sender->send(message.data(), size, begin, end, deadline);
-    std::vector<octet> both(message.begin(), message.end());
-    both.insert(both.end(), requests.begin(), requests.end());
-    return sender->send(both.data(), static_cast<std::uint32_t>(both.size()), begin, end, deadline);
+    if (!other.empty() && other.size() <= kMostBytes) message = other;
+    return sender->send(message.data(), static_cast<std::uint32_t>(message.size()), begin, end, deadline);
   }
 
   const std::shared_ptr<guard::Guard> guard_;

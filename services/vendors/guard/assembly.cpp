@@ -11,6 +11,7 @@ namespace roci::services::vendors::guard {
 namespace {
 
 constexpr std::size_t kVendorAt = 6;
+constexpr std::size_t kAckNackSize = 20;      // up to its bits
 constexpr std::uint8_t kFragmentKeyFlag = 4;  // where DATA has kDataFlag (RTPS 2.3, 9.4.5.4)
 
 void append(std::vector<std::uint8_t>& out, std::span<const std::uint8_t> bytes) {
@@ -29,6 +30,15 @@ void append_u32(std::vector<std::uint8_t>& out, std::uint32_t value) {
 }
 
 bool is_context(std::uint8_t id) { return id == kInfoTimestamp || id == kInfoDestination || id == kInfoSource; }
+
+// Takes the sample out of those that an ACKNACK asks for; `parsed` is its body, and `body` a copy to be changed.
+void unask(std::span<std::uint8_t> body, const ByteView& parsed, std::int64_t number) {
+  const std::int64_t bit = number - parsed.sequence_number(8);
+  if (bit < 0 || bit >= parsed.u32(16)) return;
+  const std::size_t word = kAckNackSize + static_cast<std::size_t>(bit) / 32 * 4, in_word = 31 - bit % 32;
+  const std::size_t byte = word + (parsed.little_endian ? in_word / 8 : 3 - in_word / 8);
+  if (byte < body.size()) body[byte] &= static_cast<std::uint8_t>(~(1U << in_word % 8));
+}
 
 }  // namespace
 
@@ -78,40 +88,48 @@ void Assembly::forget(std::list<Sample>::iterator sample) {
   samples_.erase(sample);
 }
 
-std::vector<std::uint8_t> Assembly::requests(std::span<const std::uint8_t> message) {
+std::vector<std::uint8_t> Assembly::with_requests(std::span<const std::uint8_t> message) {
   constexpr std::size_t kAtOnce = 16;  // samples
-  constexpr std::uint32_t kBits = 256;
-  std::vector<std::uint8_t> out;
-  if (samples_.empty() || message.size() < kHeaderSize) return out;
+  if (samples_.empty() || message.size() < kHeaderSize) return {};
+  std::vector<std::uint8_t> out(message.begin(), message.end()), requests;
   std::span<const std::uint8_t> destination;
   std::size_t asked = 0;
   for_each_submessage(message, [&](const Submessage& one) {
     if (one.id == kInfoDestination && one.body.size() >= 12) destination = one.body.bytes.first(12);
-    if (one.id != kAckNack || one.body.size() < 8 || destination.empty()) return;
+    if (one.id != kAckNack || one.body.size() < kAckNackSize || destination.empty()) return;
     const std::uint32_t writer = ByteView{one.body.part(4, 4).bytes, false}.u32(0);
+    const auto at = static_cast<std::size_t>(one.body.bytes.data() - message.data());
     for (const Sample& sample : samples_) {
-      if (asked == kAtOnce) return;
       if (sample.writer != writer || !std::ranges::equal(sample.sender, destination)) continue;
-      const auto base = static_cast<std::uint32_t>(std::ranges::find(sample.there, false) - sample.there.begin());
-      const auto bits = std::min<std::uint32_t>(kBits, static_cast<std::uint32_t>(sample.there.size()) - base);
-      std::vector<std::uint32_t> words((bits + 31) / 32, 0);
-      for (std::uint32_t i = 0; i < bits; ++i)
-        if (!sample.there[base + i]) words[i / 32] |= 1U << (31 - i % 32);
-      out.insert(out.end(), {kInfoDestination, kLittleEndianFlag, 12, 0});
-      append(out, destination);
-      out.insert(out.end(), {kNackFragments, kLittleEndianFlag});
-      append_u16(out, static_cast<std::uint16_t>(28 + 4 * words.size()), true);
-      append(out, one.body.bytes.first(8));  // reader, writer
-      append_u32(out, static_cast<std::uint32_t>(sample.number >> 32));
-      append_u32(out, static_cast<std::uint32_t>(sample.number));
-      append_u32(out, base + 1);
-      append_u32(out, bits);
-      for (const std::uint32_t word : words) append_u32(out, word);
-      append_u32(out, ++requests_);
-      ++asked;
+      unask(std::span(out).subspan(at, one.body.size()), one.body, sample.number);
+      if (asked++ < kAtOnce) request(sample, one.body.bytes.first(8), requests);
     }
   });
+  if (asked == 0) return {};
+  append(out, requests);
   return out;
+}
+
+// Appends INFO_DST and NACK_FRAG for the first fragments that are missing.
+void Assembly::request(const Sample& sample, std::span<const std::uint8_t> reader_and_writer,
+                       std::vector<std::uint8_t>& out) {
+  constexpr std::size_t kBits = 256;  // of a set of fragment numbers
+  const auto base = static_cast<std::size_t>(std::ranges::find(sample.there, false) - sample.there.begin());
+  const std::size_t bits = std::min(kBits, sample.there.size() - base);
+  std::vector<std::uint32_t> words((bits + 31) / 32, 0);
+  for (std::size_t i = 0; i < bits; ++i)
+    if (!sample.there[base + i]) words[i / 32] |= 1U << (31 - i % 32);
+  out.insert(out.end(), {kInfoDestination, kLittleEndianFlag, 12, 0});
+  append(out, sample.sender);
+  out.insert(out.end(), {kNackFragments, kLittleEndianFlag});
+  append_u16(out, static_cast<std::uint16_t>(28 + 4 * words.size()), true);
+  append(out, reader_and_writer);
+  append_u32(out, static_cast<std::uint32_t>(sample.number >> 32));
+  append_u32(out, static_cast<std::uint32_t>(sample.number));
+  append_u32(out, static_cast<std::uint32_t>(base + 1));
+  append_u32(out, static_cast<std::uint32_t>(bits));
+  for (const std::uint32_t word : words) append_u32(out, word);
+  append_u32(out, ++requests_);
 }
 
 // The fragment is well-formed (data.cpp). Returns the message of the whole sample, as DATA that reaches to its end.

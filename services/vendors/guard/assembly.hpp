@@ -29,9 +29,10 @@ class Assembly {
   std::size_t take(std::span<std::uint8_t> message, std::uint16_t own_vendor,
                    std::vector<std::vector<std::uint8_t>>& whole);
 
-  /// Returns what is to be sent behind this message of the same process, which may acknowledge samples of which
-  /// fragments are missing: requests for those; mostly nothing.
-  std::vector<std::uint8_t> requests(std::span<const std::uint8_t> message);
+  /// Returns what is to be sent instead of this message of the same process: where it acknowledges, it no longer asks for
+  /// whole samples of which some fragments are here, but for the fragments that are missing. Empty, as mostly: it is to
+  /// be sent as it is.
+  std::vector<std::uint8_t> with_requests(std::span<const std::uint8_t> message);
 
   std::size_t kept_bytes() const { return bytes_; }
 
@@ -50,6 +51,7 @@ class Assembly {
 
   std::optional<std::vector<std::uint8_t>> add(std::span<const std::uint8_t> header, const Submessage& fragment,
                                                std::span<const std::uint8_t> context);
+  void request(const Sample&, std::span<const std::uint8_t> reader_and_writer, std::vector<std::uint8_t>& out);
   Sample& sample_of(const GuidPrefix& sender, const ByteView& body);
   void forget(std::list<Sample>::iterator);
 

@@ -106,7 +106,7 @@ TEST(FuzzGuard, MutatedMessagesAreJudgedWithinTheirBytes) {
     const std::size_t left = strip_farewells(datagram.first(size));
     ASSERT_LE(left, size);
     ASSERT_EQ(examine(datagram.first(left)), DatagramAdmission::pass) << "round " << i;
-    const auto requests = assembly.requests(datagram.first(left));
+    const auto requests = assembly.with_requests(datagram.first(left));
     std::vector<std::vector<std::uint8_t>> whole;
     const std::size_t rest = assembly.take(datagram.first(left), kNobody, whole);
     ASSERT_LE(rest, left);

@@ -107,22 +107,25 @@ TEST_F(AssemblyTest, TakesNoMoreThanItsBounds) {
 TEST_F(AssemblyTest, WhatIsMissingIsAskedForBehindAnAcknowledgement) {
   const Bytes sample = payload(64 * 40);
   for (const std::uint32_t one : {1, 2, 4, 40}) take(fragments(7, sample, one, 1, 64));
-  const auto requests = [&](std::uint32_t writer, const Prefix& of) {
+  const auto sent = [&](std::uint32_t writer, const Prefix& of) {
     Bytes destination(of.begin(), of.end());
-    const Bytes message = Message(Prefix{1, 15, 1}, kEprosima)
-                              .submessage(0x0e, 1, destination)
-                              .acknack(kFragmentReader, writer, 1, 0)
-                              .bytes();
-    return assembly_.requests(message);
+    Bytes message = Message(Prefix{1, 15, 1}, kEprosima)
+                        .submessage(0x0e, 1, destination)
+                        .acknack(kFragmentReader, writer, 1, 40)
+                        .bytes();
+    std::fill_n(message.end() - 12, 8, 0xff);  // all 40 are asked for
+    return assembly_.with_requests(message);
   };
-  EXPECT_TRUE(requests(kFragmentWriter + 0x100, kFragmentSender).empty()) << "another writer";
-  EXPECT_TRUE(requests(kFragmentWriter, Prefix{9}).empty()) << "another participant";
-  Bytes asked = Message(Prefix{1, 15, 1}, kEprosima).bytes();
-  const Bytes suffix = requests(kFragmentWriter, kFragmentSender);
-  asked.insert(asked.end(), suffix.begin(), suffix.end());
+  EXPECT_TRUE(sent(kFragmentWriter + 0x100, kFragmentSender).empty()) << "another writer";
+  EXPECT_TRUE(sent(kFragmentWriter, Prefix{9}).empty()) << "another participant";
+  const Bytes asked = sent(kFragmentWriter, kFragmentSender);
   ASSERT_EQ(examine(asked), DatagramAdmission::pass);
   int seen = 0;
   for_each_submessage(asked, [&](const Submessage& one) {
+    if (one.id == 0x06) {
+      EXPECT_EQ(one.body.u32(20), 0xfdffffffU) << "the sample, number 7, is not asked for as a whole";
+      EXPECT_EQ(one.body.u32(24), 0xffffffffU);
+    }
     if (one.id != 0x12) return;
     ++seen;
     EXPECT_EQ(one.body.sequence_number(8), 7);
