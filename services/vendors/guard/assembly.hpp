@@ -29,9 +29,9 @@ class Assembly {
   std::size_t take(std::span<std::uint8_t> message, std::uint16_t own_vendor,
                    std::vector<std::vector<std::uint8_t>>& whole);
 
-  /// Returns what is to be sent instead of this message of the same process: where it acknowledges, it no longer asks for
-  /// whole samples of which some fragments are here, but for the fragments that are missing. Empty, as mostly: it is to
-  /// be sent as it is.
+  /// Returns what is to be sent instead of this message of the same process: where it acknowledges, it no longer asks
+  /// for whole samples of which some fragments are here, but for the fragments that are missing. Empty, as mostly: it
+  /// is to be sent as it is.
   std::vector<std::uint8_t> with_requests(std::span<const std::uint8_t> message);
 
   std::size_t kept_bytes() const { return bytes_; }
