@@ -1,4 +1,4 @@
-// All that can happen to a pair of executives, three owners and the ground within bounds, by breadth-first search over
+// All that can happen to a pair of executives, three owners and the ground within bounds, by depth-first search over
 // the real values: whoever finds a state in which a promise is broken also has the way there.
 #pragma once
 
@@ -10,20 +10,18 @@
 
 namespace roci::exec::testing {
 
-// How much may happen.
+// How much may happen. In between all may rest for as long as it likes.
 struct Bounds {
   int goals = 2;
   int recalls = 1;
   int cuts = 2;
   int kills = 2;
-  int quiet_steps = 12;  // in a row without anything happening; the last times of all rules are over by then
-  std::size_t states = 1000000;
+  int pace = 1;  // steps of half a second from one event to the next at least; all else happens in every step
 };
 
 struct Exploration {
   std::size_t states = 0;  // that differ
   std::size_t transitions = 0;
-  bool complete = false;         // all within the bounds
   std::vector<std::string> way;  // what happened until a promise was broken, and how; empty: none was
 };
 

@@ -1,7 +1,7 @@
 #include "tests/unit/exec_svc/standby/pair_world.hpp"
 
 #include <algorithm>
-#include <sstream>
+#include <iterator>
 #include <type_traits>
 #include <utility>
 
@@ -156,9 +156,23 @@ void PairWorld::deliver_to_owners() {
   }
 }
 
+// Who starts hears what the other member and the owners said last; nobody has taken all else.
+void PairWorld::keep_newest(Member dead) {
+  std::set<std::string> heard;
+  std::vector<Message> kept;
+  for (auto message = under_way_.rbegin(); message != under_way_.rend(); ++message) {
+    const bool arrived = message->to_owner < 0 && message->to == dead && message->due <= now_;
+    const bool latched = message->message || message->report;
+    const std::string who = message->report ? message->report->owner : "member";
+    if (!arrived || (latched && heard.insert(who).second)) kept.push_back(std::move(*message));
+  }
+  under_way_.assign(std::make_move_iterator(kept.rbegin()), std::make_move_iterator(kept.rend()));
+}
+
 void PairWorld::act(Member member) {
   Process& process = at(member);
-  if (!process.lease || process.paused) return;
+  if (!process.lease) return keep_newest(member);
+  if (process.paused) return;
   std::vector<Message> mine;
   std::erase_if(under_way_, [&](const Message& message) {
     if (message.to_owner >= 0 || message.to != member || message.due > now_) return false;
@@ -502,56 +516,77 @@ std::vector<std::string> PairWorld::lost() const {
 }
 
 std::string PairWorld::fingerprint(Moment oldest) const {
-  std::ostringstream out;
-  const auto see_one = [&](const auto& value) {
+  std::string out;
+  const auto append = [&](const auto& value) {
     using T = std::decay_t<decltype(value)>;
     if constexpr (std::is_same_v<T, Moment>) {
-      out << std::min(value, oldest).count();
+      out += std::to_string(std::min(value, oldest).count());
+    } else if constexpr (std::is_same_v<T, Position>) {
+      out += std::to_string(value.epoch) + ':' + std::to_string(value.sequence);
     } else if constexpr (std::is_enum_v<T>) {
-      out << static_cast<int>(value);
+      out += std::to_string(static_cast<int>(value));
+    } else if constexpr (std::is_arithmetic_v<T>) {
+      out += std::to_string(value);
     } else {
-      out << value;
+      out += value;
     }
-    out << ' ';
+    out += ' ';
   };
-  const auto see = [&](const auto&... values) { (see_one(values), ...); };
-  const auto see_line = [&](const Line& line) { see(line.at.epoch, line.at.sequence, line.text); };
+  const auto see = [&](const auto&... values) { (append(values), ...); };
+  const auto see_line = [&](const Line& line) { see(line.at, line.text); };
   const auto see_goal = [&](int number, const GoalRecord& goal) {
     see(number, goal.state, goal.revision, goal.request.recalled, goal.request.priority);
   };
   for (const Member member : {Member::first, Member::second}) {
     const Process& process = members_[index(member)];
-    out << "| " << process.disk.persisted_term.epoch << process.disk.persisted_term.alone << ' ';
+    const auto& term = process.disk.persisted_term;
+    see("|", term.epoch, term.alone, term.holds);
     for (const Line& line : process.disk.lines) see_line(line);
     for (const auto& [number, goal] : process.disk.goals) see_goal(number, goal);
-    out << "/ ";
+    see("/");
     for (const auto& [number, goal] : process.disk.apart) see_goal(number, goal);
-    out << (process.lease ? "lives " : "dead ");
+    see(process.lease ? "lives" : "dead");
     if (!process.lease) continue;
     process.lease->show(see, clock(member));
     for (const Line& line : process.unsent) see_line(line);
-    out << "/ ";
+    see("/");
     for (const Line& line : process.waiting) see_line(line);
     for (const int goal : process.commanded) see(goal);
-    if (process.other) see(process.other->has.epoch, process.other->has.sequence, process.other->role);
-    see(process.fed.epoch, process.fed.sequence, process.told_alone.has_value());
-    if (process.told_alone) see(process.told_alone->epoch, process.told_alone->sequence);
+    if (process.other) see(process.other->has, process.other->role);
+    see(process.fed, process.told_alone.has_value(), process.told_alone.value_or(Position{}));
   }
   for (const Owner& owner : owners_) {
-    out << "| " << owner.epoch << ' ';
+    see("|", owner.epoch);
     owner.leases.show(see, owner_clock());
-    for (const Position& done : owner.done) see(done.epoch, done.sequence);
+    for (const Position& done : owner.done) see(done);
   }
-  out << "| " << network.cut << ' ';
+  see("|", network.cut);
   for (const auto& links : network.owner_cut)
-    for (const bool link : links) out << link;
-  for (const bool link : network.ground_cut) out << link;
+    for (const bool link : links) see(link);
+  for (const bool link : network.ground_cut) see(link);
   for (const Wish& wish : wishes_) see(wish.what, wish.goal);
   for (const auto& [goal, one] : acknowledged_)
     see(goal, one.revision, one.recalled, one.recall_held, one.held, one.by);
   for (const auto& [goal, count] : effects_) see(goal, count);
-  out << "| " << under_way_.size();
-  return out.str();
+  for (const Message& message : under_way_) {
+    see("|", message.to, message.to_owner, message.leader, message.after, message.whole);
+    if (const auto& said = message.message) {
+      see(said->member, said->role, said->epoch, said->has, said->entitled, said->receipt, said->searching,
+          clock(said->member) - said->said, clock(other(said->member)) - said->echo);
+    }
+    if (const auto& report = message.report) {
+      const Member holder = report->holder.value_or(Member::first);
+      see(report->owner, report->holder.has_value(), holder, report->epoch, report->newest_epoch,
+          clock(holder) - report->echo, report->term);
+    }
+    if (const auto& asked = message.request) {
+      see(asked->member, asked->epoch, asked->wanted, asked->leads, asked->term,
+          clock(asked->member) - asked->said);
+    }
+    for (const Line& line : message.lines) see_line(line);
+    if (message.handed_over) see_goal(number_of(*message.handed_over), *message.handed_over);
+  }
+  return out;
 }
 
 }  // namespace roci::exec::testing

@@ -181,6 +181,7 @@ class PairWorld {
   void step();
   void round();
   void act(standby::Member member);
+  void keep_newest(standby::Member dead);
   void deliver_to_owners();
   void take(standby::Member member, const Message& message);
   void speak(standby::Member member);
