@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "tests/scenario/flight.hpp"
+
 namespace roci::scenario {
 namespace {
 
@@ -53,6 +55,18 @@ void check_communication(const std::string& scenario, const std::filesystem::pat
   EXPECT_FALSE(sols.empty()) << "nothing was sent";
   for (const auto& [sol, joules] : sols)
     EXPECT_LE(joules, kTolerance * limits_of(scenario, (sol + 1) * kSolS).sol_j) << "sol " << sol;
+}
+
+// From its record alone each cycle comes out as it was flown, and every schedule of downlinks is right for the independent
+// checker.
+void check_record(const std::filesystem::path& run_folder) {
+  std::size_t records = 0;
+  for (const auto& record : std::filesystem::directory_iterator(run_folder / "planner_steps")) {
+    const Ended again = run("roci-network cycle " + record.path().string());
+    EXPECT_EQ(again.exit_code, 0) << again.output;
+    ++records;
+  }
+  EXPECT_GT(records, 0U);
 }
 
 // Nobody hears without listening: the radio receives when what the ground says arrives.
@@ -286,6 +300,7 @@ std::optional<double> hears_the_ground_at(const std::string& scenario) {
 
 void check_rules(const std::string& scenario, const Course& course, const std::filesystem::path& run_folder) {
   check_limits(run_folder);
+  check_record(run_folder);
   if (scenario != "basic") check_communication(scenario, run_folder);  // its network has no limits
   if (const auto at_s = hears_the_ground_at(scenario)) {
     check_uplink(*at_s, run_folder);

@@ -15,7 +15,8 @@ std::optional<double> hears_the_ground_at(const std::string& scenario);
 
 /// Holds a flight of that name against what all of them keep and what success is in its scenario. All keep zones within
 /// their ranges, a battery that is never below empty, the limits of energy for each downlink and each sol, and the
-/// subway map; the ground is heard while the radio receives; decisional data go with the next downlink; all of every
+/// subway map; their cycles come out again from their records, and every schedule of downlinks is right for the independent
+/// checker; the ground is heard while the radio receives; decisional data go with the next downlink; all of every
 /// sample that was analyzed is on Earth. A test fails where one is broken.
 void check_rules(const std::string& scenario, const Course& course, const std::filesystem::path& run_folder);
 

@@ -35,6 +35,7 @@ class Lander : public ::testing::TestWithParam<const char*> {
     ASSERT_TRUE(told.is_object()) << again.output;
     EXPECT_GT(told["versions"], 5);
     EXPECT_EQ(told["differing"], 0);
+    EXPECT_EQ(told["faulty"], 0);
   }
 
  private:

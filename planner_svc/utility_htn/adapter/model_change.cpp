@@ -121,7 +121,11 @@ Network PlannedNetwork::replace(Network next, const std::map<std::string, tempor
     const auto* const same = counterpart(before, old_chains.chains[block.chain], network_, chains_);
     if (same == nullptr) continue;  // it is over
     block.chain = static_cast<std::uint32_t>(same - chains_.chains.data());
-    for (std::size_t i = 0; i < block.links.size(); ++i) block.links[i].task = same->links[i].task;
+    for (std::size_t i = 0; i < block.links.size(); ++i) {
+      Link& link = block.links[i];
+      if (before.tasks[link.task].products != network_.tasks[same->links[i].task].products) link.generated = 0;
+      link.task = same->links[i].task;
+    }
     blocks.push_back(std::move(block));
   }
   const cycle::Past past = past_for(network_, before, *old, now);

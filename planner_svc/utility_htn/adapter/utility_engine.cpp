@@ -163,6 +163,7 @@ void UtilityEngine::hear_product(const engine::DataProduct& product, Time now) {
   if (!planned_.delivery().hear(existing(planned_.network(), planned_.chains(), planned_.cycle(), product),
                                 since))
     return;
+  if (const auto task = task_of(product.source)) planned_.cycle().generated(*task, product.kind);
   planned_.cycle().doubt();
   outlook_.look_again();
 }

@@ -84,7 +84,7 @@ void check_tiers(const Downlinks& downlinks, Faults& out) {
     if (!product.window) out.push_back(name(product) + " is not sent, and nothing says why");
     if (product.tier != Tier::critical && product.tier != Tier::decisional) continue;
     for (std::size_t w = 0; product.window && w < *product.window; ++w) {
-      if (downlinks.windows[w].start < product.created) continue;
+      if (downlinks.windows[w].under_way || downlinks.windows[w].start < product.created) continue;
       out.push_back(name(product) + " does not go with the first window after its creation, '" +
                     downlinks.windows[w].id + "', and nothing says why");
       break;
@@ -93,7 +93,7 @@ void check_tiers(const Downlinks& downlinks, Faults& out) {
   for (const Product& product : downlinks.products) {
     if (product.window || product.tier == Tier::residual) continue;
     for (std::size_t w = 0; w < downlinks.windows.size(); ++w) {
-      if (downlinks.windows[w].start < product.created) continue;
+      if (downlinks.windows[w].under_way || downlinks.windows[w].start < product.created) continue;
       std::vector<double> with = urgent;
       with[w] += static_cast<double>(product.bytes);
       const auto limit = downlinks.sol_energy_j.find(downlinks.windows[w].sol);
@@ -108,13 +108,6 @@ void check_tiers(const Downlinks& downlinks, Faults& out) {
   }
 }
 
-// Returns the value of the parameter of that name, as missions call it.
-double parameter(const Question& question, const std::string& name, double otherwise) {
-  const auto& all = question.network.parameters;
-  const auto found = std::ranges::find(all, name, &model::Parameter::name);
-  return found == all.end() ? otherwise : question.values[static_cast<std::size_t>(found - all.begin())];
-}
-
 // What planned steps will generate stands in the list as the network says, and has its downlink.
 void check_sources(const Question& question, Faults& out) {
   const auto& products = question.downlinks.products;
@@ -125,12 +118,16 @@ void check_sources(const Question& question, Faults& out) {
   }
   for (const Block& block : question.plan) {
     for (const Step& step : block.steps) {
-      if (end_of(question, step) <= question.now) continue;
+      if (end_of(question, step) <= question.now || step.due) continue;
       for (const model::Product& promised : question.network.tasks[step.task].products) {
         const auto count = std::ranges::count_if(products, [&](const Product& product) {
           return product.step == step.id && product.name == promised.name;
         });
         const std::string what = "'" + promised.name + "' of " + name(question, step);
+        if (question.downlinks.generated.contains({step.id, promised.name})) {
+          if (count != 0) out.push_back("product " + what + " is promised although it is there already");
+          continue;
+        }
         if (count != 1) {
           out.push_back("product " + what + " stands in the downlinks " + std::to_string(count) + " times");
           continue;
@@ -156,13 +153,23 @@ void check_sources(const Question& question, Faults& out) {
 
 }  // namespace
 
+double parameter(const Question& question, const std::string& name, double otherwise) {
+  const auto& all = question.network.parameters;
+  const auto found = std::ranges::find(all, name, &model::Parameter::name);
+  return found == all.end() ? otherwise : question.values[static_cast<std::size_t>(found - all.begin())];
+}
+
+std::int64_t sol_of(const Question& question, temporal::Time time) {
+  const double sol_s = std::max(1.0, parameter(question, "sol_s", 86'400));
+  return static_cast<std::int64_t>(temporal::to_seconds(time) / sol_s);
+}
+
 // What is not committed keeps the limits. A downlink of what has begun that takes more than one of them by itself goes
 // on as long as the network says: no sol is better for it than another.
 void check_sessions(const Question& question, Faults& out) {
   constexpr double kNone = std::numeric_limits<double>::infinity();
   const double of_one = parameter(question, "downlink_limit_j", kNone);
   const double of_sol = parameter(question, "sol_limit_j", kNone);
-  const double sol_s = std::max(1.0, parameter(question, "sol_s", 86'400));
   if (parameter(question, "rate_bytes_per_s", 0) <= 0) return;
   std::map<std::int64_t, double> taken;
   std::map<std::int64_t, const Step*> judged;  // one of each sol
@@ -171,7 +178,7 @@ void check_sessions(const Question& question, Faults& out) {
     if (!task.downlinks) return;
     const double seconds = temporal::to_seconds(end_of(question, step) - step.start);
     const double joules = seconds * std::max(0.0, model::draw(question.network, task, question.values));
-    const auto sol = static_cast<std::int64_t>(temporal::to_seconds(step.start) / sol_s);
+    const std::int64_t sol = sol_of(question, step.start);
     taken[sol] += joules;
     const bool longer = seconds > model::duration_s(task, question.values) + 1e-3;
     const bool goes_on = !is_new && !longer && (more(joules, of_one) || more(joules, of_sol));

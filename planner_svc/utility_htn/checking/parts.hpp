@@ -1,6 +1,7 @@
 // These are the parts of the check, one for each file; each adds its faults.
 #pragma once
 
+#include <cstdint>
 #include <set>
 #include <string>
 #include <vector>
@@ -25,6 +26,11 @@ void check_subway_map(const Question& question, Faults& out);
 /// that is planned or still asked for. Templates that are asked for are not known here,
 /// so more may be returned than there are.
 std::set<model::TaskIndex> out_of_reach(const Question& question);
+
+/// Returns the value of the parameter of that name, as missions call it.
+double parameter(const Question& question, const std::string& name, double otherwise);
+/// Returns the sol in which that time lies.
+std::int64_t sol_of(const Question& question, temporal::Time time);
 
 /// Prints "task 'x' at 12 s".
 std::string name(const Question& question, const Step& step);

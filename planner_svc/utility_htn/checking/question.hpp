@@ -6,7 +6,9 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/temporal/duration.hpp"
@@ -43,6 +45,7 @@ struct Window {
   double energy_limit_j = std::numeric_limits<double>::infinity();
   std::uint32_t sol = 0;
   double heat_limit_s = std::numeric_limits<double>::infinity();
+  bool under_way = false;  ///< it sends already: what room is left is not known
 };
 
 /// Describes data to be sent, and the window that the plan gives them.
@@ -62,6 +65,8 @@ struct Downlinks {
   std::vector<Product> products{};
   std::vector<Window> windows{};  ///< in order of their starts
   std::map<std::uint32_t, double> sol_energy_j{};
+  /// Names products of steps that are there already although the step is not known to be over: nothing promises them.
+  std::set<std::pair<std::uint64_t, std::string>> generated{};
 };
 
 /// Holds a value of a timeline that was observed.

@@ -13,8 +13,8 @@
 namespace roci::planner::utility_htn::checking {
 
 /// Reads blocks, times and commitments off a plan's activities, windows and tokens, and has faults() compute everything
-/// anew. Which data go with which downlink is not part of a FlexiblePlan and is not looked at here. Remembers downlinks
-/// that are over, since what they took of their sol counts when their chains have left the plan.
+/// anew. Which data go with which downlink is no part of a FlexiblePlan; ScheduleChecker looks at that. Remembers
+/// downlinks that are over, since what they took of their sol counts when their chains have left the plan.
 class UtilityChecker final : public engine::Checker {
  public:
   std::vector<std::string> faults(const engine::CheckedPlan& checked) const override;

@@ -189,6 +189,11 @@ class Reader {
 
 }  // namespace
 
+std::optional<std::uint64_t> step_named(const std::string& activity) {
+  const auto name = name_of(activity);
+  return name ? std::optional(step_id(*name)) : std::nullopt;
+}
+
 std::uint32_t number_of(const Block& block) {
   return static_cast<std::uint32_t>(block.steps.front().id >> 32U);
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -28,6 +29,9 @@ struct Version {
   std::vector<model::TaskIndex> closed;  ///< requests that are done or withdrawn
   std::vector<std::string> faults;       ///< of the form
 };
+
+/// Returns the number of the step that an activity is; nothing if it is none.
+std::optional<std::uint64_t> step_named(const std::string& activity);
 
 /// Returns the number of a block.
 std::uint32_t number_of(const Block& block);

@@ -6,7 +6,9 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "planner_svc/engine/step_record.hpp"
 #include "planner_svc/utility_htn/cli/commands.hpp"
@@ -20,15 +22,20 @@ struct ReplannedCycle {
   temporal::Time at{0};
   engine::StepOutcome now{};
   std::optional<engine::StepOutcome> flown{};  ///< nothing: the process ended in it
+  /// Says what the independent checker finds wrong with what is told of data and downlinks then.
+  std::vector<std::string> downlink_faults{};
   bool as_flown() const { return !flown || *flown == now; }
 };
 
-/// Counts what a record held, and in how many of its cycles the engine planned otherwise than it had in flight.
+/// Counts what a record held, in how many of its cycles the engine planned otherwise than it had in flight, and what
+/// the checker of downlink schedules says.
 struct Replanned {
   std::uint64_t cycles = 0;
   std::uint64_t steps = 0;
   std::uint64_t versions = 0;
   std::uint64_t differing = 0;  ///< cycles
+  std::uint64_t schedules = 0;  ///< of downlinks, which the independent checker has computed anew
+  std::uint64_t faulty = 0;     ///< cycles with a fault in theirs
   bool cut_short = false;       ///< the record ends within an entry
 };
 
@@ -39,7 +46,7 @@ Replanned plan_again(std::string_view record, std::uint64_t until,
                      const std::function<void(const ReplannedCycle&)>& told);
 
 /// Prints each cycle with what it did and the checksum of its version, and whether all is as it was flown. Ends with
-/// `faulty` where something is not, and for a record that is damaged.
+/// `faulty` where something is not or a schedule of downlinks has a fault, and for a record that is damaged.
 ExitCode cycle(const std::filesystem::path& record, std::uint64_t until, const Output& output);
 
 }  // namespace roci::planner::utility_htn::cli

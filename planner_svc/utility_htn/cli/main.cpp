@@ -17,7 +17,7 @@ int run_command_line(int argc, char** argv) {
   app.require_subcommand(1);
   app.footer(
       "What a network holds and how it is written: docs/network-format.md. Exit codes: 0 done, 1 the network "
-      "has errors, or a cycle is not as it was flown, 2 wrong use.");
+      "has errors, a cycle is not as it was flown or a schedule of downlinks is wrong, 2 wrong use.");
   std::string file, to;
   bool json = false;
   const auto command = [&](const char* name, const char* help) {
@@ -44,7 +44,7 @@ int run_command_line(int argc, char** argv) {
   unpack_command->add_option("-o,--output", to, "the file to write; without it standard output");
   std::uint64_t until = 0;
   CLI::App* cycle_command = app.add_subcommand(
-      "cycle", "Plans the cycles of a flight again, alone, from the record of what its planner heard");
+      "cycle", "Plans the cycles of a flight again, alone, from the record of what its planner heard; checks downlinks");
   cycle_command->add_option("RECORD", file, "planner_steps/N.steps of a run folder")->required();
   cycle_command->add_option("--until", until,
                             "the last cycle to plan again, of those that are counted from 1");

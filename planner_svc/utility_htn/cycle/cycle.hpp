@@ -83,6 +83,9 @@ class Cycle {
   /// Takes in that the executive tries a running task again by itself (R99): it will take its whole duration once
   /// more.
   void tried_again(TaskId task, temporal::Time at);
+  /// Takes in that a task which is not known to be over has generated the product of that name, which it promises no
+  /// longer (R115).
+  void generated(TaskId task, const std::string& product);
   void ended(TaskId task, temporal::Time at, bool succeeded, const std::string& cause = {});
   /// Asks for a template, or for something that was withdrawn; forgets its failures.
   void request(model::TaskIndex task);

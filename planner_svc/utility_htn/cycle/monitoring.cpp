@@ -39,7 +39,10 @@ void Cycle::begun(TaskId task, Time at) {
   Link* const one = link(task);
   if (one == nullptr || !waits(*one)) return;
   to_optimize_ |= one->start != at;
-  *one = {one->task, one->planned, at, at + length(*block(block_of(task)), link_of(task)), Stage::running};
+  one->start = at;
+  one->end = at + length(*block(block_of(task)), link_of(task));
+  one->stage = Stage::running;
+  one->told = Duration{0};
   timelines_.move(task, at, one->end);
   note_made(network_.tasks[one->task], temporal::ImpactWhen::at_start, at);
 }
@@ -47,9 +50,18 @@ void Cycle::begun(TaskId task, Time at) {
 void Cycle::tried_again(TaskId task, Time at) {
   Link* const one = link(task);
   if (one == nullptr || one->stage != Stage::running) return;
+  one->generated = 0;
   one->end = std::max(one->start, at) + length(*block(block_of(task)), link_of(task));
   timelines_.move(task, one->start, one->end);
   to_optimize_ = true;
+}
+
+void Cycle::generated(TaskId task, const std::string& product) {
+  Link* const one = link(task);
+  if (one == nullptr || is_over(one->stage)) return;
+  const auto& products = network_.tasks[one->task].products;
+  const auto found = std::ranges::find(products, product, &model::Product::name) - products.begin();
+  if (found < std::min<std::ptrdiff_t>(std::ssize(products), 64)) one->generated |= std::uint64_t{1} << found;
 }
 
 void Cycle::ended(TaskId task, Time at, bool succeeded, const std::string& cause) {

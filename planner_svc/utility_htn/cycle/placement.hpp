@@ -33,6 +33,7 @@ struct Link {
   temporal::Time end{0};
   Stage stage = Stage::planned;
   temporal::Duration told{0};  ///< what it takes as the executive was told; 0: not committed yet
+  std::uint64_t generated = 0;  ///< bit i: product i of the task is there already, before the task is over
   friend bool operator==(const Link&, const Link&) = default;
 };
 

@@ -20,9 +20,10 @@ search::PlannedData data_of(const std::vector<Block>& blocks, const model::Netwo
       const model::Task& task = network.tasks[each.task];
       if (task.downlinks && !is_over(each.stage))
         out.downlinks.push_back({each.task, each.start, each.end, task_id(one->number, i)});
-      for (const model::Product& product : task.products)
-        out.products.push_back(search::predicted(network.tasks[chains.chains[one->chain].task], task, product,
-                                                 each.end, values));
+      for (std::size_t p = 0; p < task.products.size(); ++p)
+        if (p >= 64 || (each.generated >> p & 1U) == 0)
+          out.products.push_back(search::predicted(network.tasks[chains.chains[one->chain].task], task,
+                                                   task.products[p], each.end, values));
     }
   }
   out.committed_products = out.products.size();

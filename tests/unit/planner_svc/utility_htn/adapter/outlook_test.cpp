@@ -6,118 +6,16 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <optional>
 
-#include "core/temporal/plan_delta.hpp"
-#include "planner_svc/utility_htn/adapter/utility_engine.hpp"
-#include "planner_svc/utility_htn/reading/load.hpp"
+#include "tests/unit/planner_svc/utility_htn/adapter/outlook_fixture.hpp"
 
 namespace roci::planner::utility_htn::adapter {
 namespace {
 
-using engine::ChainStage, engine::DataTier, engine::SignatureOutcome, engine::StepInputs, engine::StepOutput;
-using model::Tier;
+using engine::ChainStage, engine::DataTier, engine::SignatureOutcome, engine::StepInputs;
 using temporal::ActivityState, temporal::Time;
 using ::testing::DoubleNear, ::testing::ElementsAre, ::testing::Field, ::testing::HasSubstr,
     ::testing::IsEmpty, ::testing::Not, ::testing::SizeIs;
-
-// The small lander; `image_SITE` makes 1,000 bytes and a downlink of 300 s carries 3,000.
-model::Network imaging_lander() {
-  model::Network out = reading::load_network(ROCI_SOURCE_DIR "/tests/missions/lander/network.yaml");
-  if (std::ranges::find(out.parameters, "rate_bytes_per_s", &model::Parameter::name) == out.parameters.end())
-    out.parameters.push_back({"rate_bytes_per_s", 10, 0, 1e9});
-  std::ranges::find(out.parameters, "rate_bytes_per_s", &model::Parameter::name)->prior = 10;
-  for (model::Task& task : out.tasks) {
-    task.products.clear();
-    if (task.id.starts_with("image_")) task.products = {{"picture", Tier::mandatory, {1000}, {0.3}}};
-  }
-  return out;
-}
-
-engine::Goal whole_mission() {
-  engine::Goal out;
-  out.issuer = "ground";
-  out.id = "network";
-  out.kind = "mission";
-  return out;
-}
-
-// Stands in for the executive and the host.
-class OutlookTest : public ::testing::Test {
- protected:
-  void start(model::Network network = imaging_lander(), cycle::Settings settings = {}) {
-    engine_ = std::make_unique<UtilityEngine>(engine::Setup{"utility_htn", "lander", "", ""},
-                                              std::move(network), settings);
-    StepInputs inputs;
-    inputs.goals.push_back(whole_mission());
-    step(std::move(inputs));
-  }
-
-  StepOutput step(StepInputs inputs = {}) {
-    inputs.now = now_;
-    inputs.last_version = plan_.version;
-    inputs.receipt = engine::Receipt{plan_.version, 0, "", "", true};
-    if (battery_) inputs.observations.push_back({"lander.battery", *battery_, now_});
-    StepOutput out = engine_->step(inputs);
-    if (out.delta) {
-      EXPECT_EQ(temporal::apply(*out.delta, plan_), "");
-    }
-    if (out.schedule) schedule_ = *out.schedule;
-    if (out.outlook) outlook_ = *out.outlook;
-    told_ += (out.schedule ? 1 : 0) + (out.outlook ? 1 : 0);
-    return out;
-  }
-  void advance_to(Time when) {
-    now_ = when;
-    step();
-  }
-  std::string activity(const std::string& task) const {
-    const auto found = std::ranges::find(plan_.activities, task, &temporal::PlanActivity::name);
-    return found == plan_.activities.end() ? "none of " + task : found->id;
-  }
-  void execute(const std::string& id, ActivityState state, Time started, std::optional<Time> ended) {
-    StepInputs inputs;
-    engine::StepStatus status;
-    status.plan_version = plan_.version;
-    status.activity = id;
-    status.progress.state = state;
-    status.progress.started = started;
-    status.progress.ended = ended;
-    inputs.steps.push_back(status);
-    step(std::move(inputs));
-  }
-  void hear(engine::DataProduct product) {
-    StepInputs inputs;
-    inputs.products.push_back(std::move(product));
-    step(std::move(inputs));
-  }
-  engine::DataProduct picture(const std::string& id, const std::string& source) const {
-    engine::DataProduct out;
-    out.id = id;
-    out.kind = "picture";
-    out.source = source;
-    out.bytes = 900;
-    out.created = now_;
-    return out;
-  }
-  const engine::ScheduledDownlink* downlink(const std::string& task) const {
-    const auto found = std::ranges::find_if(schedule_.downlinks, [&](const engine::ScheduledDownlink& one) {
-      return one.activity.starts_with(task + "#");
-    });
-    return found == schedule_.downlinks.end() ? nullptr : &*found;
-  }
-  const engine::ChainOutlook& chain(const std::string& request) const {
-    return *std::ranges::find(outlook_.chains, request, &engine::ChainOutlook::request);
-  }
-
-  Time now_ = temporal::seconds(100);
-  std::optional<double> battery_ = 600000;
-  temporal::FlexiblePlan plan_;
-  std::unique_ptr<UtilityEngine> engine_;
-  engine::DownlinkSchedule schedule_;
-  engine::MissionOutlook outlook_;
-  int told_ = 0;
-};
 
 TEST_F(OutlookTest, TheScheduleNamesActivitiesOfThePlanAndPlannedDataByTheNetwork) {
   start();
@@ -225,6 +123,34 @@ TEST_F(OutlookTest, DataWithoutAWorthOfTheirOwnTakeThatOfTheirProduct) {
   now_ += temporal::seconds(60);
   hear(home);
   EXPECT_EQ(outlook_.received, (temporal::RankVector{0.7}));
+}
+
+// The owner tells of data before the executive tells that the task is over, and a cycle may lie between.
+TEST_F(OutlookTest, DataThatAreThereAreNotPromisedAnyMore) {
+  start();
+  const std::string image = activity("image_near");
+  for (const char* const task : {"dig_near", "image_near"}) {
+    const auto begins = std::ranges::find(outlook_.energy, activity(task), &engine::EnergyPoint::activity);
+    ASSERT_NE(begins, outlook_.energy.end()) << task;
+    const Time end = begins->at;
+    const Time begin = end - (std::string(task) == "dig_near" ? temporal::seconds(900) : temporal::seconds(120));
+    advance_to(begin);
+    execute(activity(task), ActivityState::running, begin, std::nullopt);
+    if (activity(task) == image) break;
+    now_ = end;
+    execute(activity(task), ActivityState::succeeded, begin, end);
+  }
+  const auto promised = [&] {
+    std::size_t out = 0;
+    for (const engine::ScheduledDownlink& one : schedule_.downlinks)
+      out += static_cast<std::size_t>(std::ranges::count(one.products, "sample_near/image_near/picture",
+                                                         &engine::ScheduledProduct::id));
+    return out;
+  };
+  ASSERT_EQ(promised(), 1U);
+  now_ += temporal::seconds(60);
+  hear(picture("dp-1", image));
+  EXPECT_EQ(promised(), 0U);
 }
 
 TEST_F(OutlookTest, ChainsTellWhatTheyCostAndHowTheyStandAndStayWhenTheyHaveEnded) {
