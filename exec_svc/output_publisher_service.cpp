@@ -74,6 +74,7 @@ void OutputPublisher::send_plan(const Reactor& reactor) {
 
 void OutputPublisher::send(const ReactorOutputs& out, std::uint32_t version,
                            const std::vector<PlannedAction>& actions) {
+  withdraw_what_is_cancelled(out.commands);
   for (const GoalRecord& goal : out.goal_changes) sent(tell(goal));
   if (out.adopted) sent(plans_.write(plan_sample(*out.adopted, actions)));
   for (const Command& command : out.commands) {
@@ -109,6 +110,18 @@ void OutputPublisher::end_steps_outside(const temporal::FlexiblePlan& plan) {
   }
 }
 
+// Before anything is told of why, and before the leases may let the rest go: else a command would begin whose recall
+// was acknowledged already.
+void OutputPublisher::withdraw_what_is_cancelled(const std::vector<Command>& commands) {
+  for (const Command& cancel : commands) {
+    if (cancel.action != executive::CommandAction::cancel) continue;
+    std::erase_if(waiting_, [&](const v1::Command& one) {
+      return one.activity() == cancel.activity && one.attempt() == cancel.attempt &&
+             one.epoch() == (cancel.epoch != 0 ? cancel.epoch : epoch_);
+    });
+  }
+}
+
 void OutputPublisher::send(v1::Command command) {
   send_waiting();
   const bool safety =
@@ -117,7 +130,6 @@ void OutputPublisher::send(v1::Command command) {
     return other.epoch() == command.epoch() && other.activity() == command.activity() &&
            other.attempt() == command.attempt();
   };
-  if (command.action() == v1::COMMAND_CANCEL) std::erase_if(waiting_, same_key);
   const bool begins = command.action() == v1::COMMAND_EXECUTE && !safety;
   if (!begins || !may_command_ || may_command_()) {
     sent(commands_.write(std::move(command)));

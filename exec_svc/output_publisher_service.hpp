@@ -70,6 +70,7 @@ class OutputPublisher {
 
   bool tell(const goals::GoalRecord&) const;
   void send(v1::Command);
+  void withdraw_what_is_cancelled(const std::vector<executive::Command>&);
   void lead(const std::string& owner, std::uint64_t epoch) const;
   v1::Plan plan_sample(const temporal::FlexiblePlan&, const std::vector<reactor::PlannedAction>&) const;
 

@@ -431,7 +431,7 @@ void PairWorld::send_unsent(Member member) {
 void PairWorld::send(Member member, const Line& line) {
   Process& process = at(member);
   if (line.is("command")) return command(member, line);
-  if (line.is("recall"))
+  if (line.goal && line.goal->request.recalled)  // by the ground or by the other executive
     std::erase_if(process.waiting, [&](const Line& other) { return other.number() == line.number(); });
   if (line.goal) acknowledge(member, line);
 }
