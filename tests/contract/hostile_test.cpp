@@ -223,6 +223,16 @@ TEST_P(Hostile, GapsTakeLittleMemoryOfAReader) {
   EXPECT_EQ(reader.finish(), 0);
 }
 
+TEST_P(Hostile, HeartbeatsWithoutMeasureNeitherEndNorHoldAReader) {
+  ChildProcess reader(reader_command(GetParam(), domain_.id()));
+  ASSERT_TRUE(reader.wait_for("ready"));
+  ChildProcess writer(hostile_command("starts", domain_.id()));
+  ASSERT_TRUE(reader.wait_for("matched roci/goal"));
+  while (writer.lines().size() < 15) ASSERT_TRUE(writer.wait_for_more());
+  expect_a_goal_to_arrive(reader);
+  EXPECT_EQ(reader.finish(), 0);
+}
+
 INSTANTIATE_TEST_SUITE_P(Vendors, Hostile, testing::Values("fastdds", "cyclonedds"),
                          [](const auto& test) { return std::string(test.param); });
 

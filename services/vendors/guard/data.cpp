@@ -45,7 +45,7 @@ Parts split(const Submessage& message, std::size_t fixed, const GuidPrefix& send
   if (body.size() < fixed) return {DatagramAdmission::cut};
   const std::size_t offset = body.u16(2);  // counted from behind itself
   if (offset % 4 != 0 || offset < fixed - 4 || offset > body.size() - 4) return {DatagramAdmission::cut};
-  if (body.sequence_number(12) <= 0) return {DatagramAdmission::bad_numbers};
+  if (!is_number(body.sequence_number(12))) return {DatagramAdmission::bad_numbers};
   Parts parts{DatagramAdmission::pass, kind_of_writer(body.part(8, 4)), body.from(4 + offset)};
   const bool inline_qos = (message.flags & kInlineQosFlag) != 0;
   if (!inline_qos) return parts;

@@ -101,7 +101,7 @@ DatagramAdmission Guard::judge(std::span<const std::uint8_t> datagram, const std
   const auto now = std::chrono::steady_clock::now();
   const DatagramAdmission claimed = identities_.claim(sender_of(datagram), *source, now);
   if (claimed != DatagramAdmission::pass) return claimed;
-  const bool may_skip = gap_budget_.take(*source, skipped, now);
+  const bool may_skip = gap_budget_.take(*source, sender_of(datagram), skipped, now);
   return may_skip ? DatagramAdmission::pass : DatagramAdmission::bad_numbers;
 }
 

@@ -20,7 +20,7 @@ DatagramAdmission acknack(const Submessage& message) {
   const std::int64_t base = body.sequence_number(8);
   const std::uint32_t bits = body.u32(16);
   const bool preemptive = base == 0 && bits == 0;  // Fast DDS sends these before it knows the writer
-  if (bits > kMaxBits || (base <= 0 && !preemptive)) return DatagramAdmission::bad_numbers;
+  if (bits > kMaxBits || (!is_number(base) && !preemptive)) return DatagramAdmission::bad_numbers;
   return at_least(message, 24 + bytes_of_bits(bits));
 }
 
@@ -28,7 +28,8 @@ DatagramAdmission heartbeat(const Submessage& message) {
   const ByteView& body = message.body;
   if (body.size() < 28) return DatagramAdmission::cut;
   const std::int64_t first = body.sequence_number(8), last = body.sequence_number(16);
-  return first <= 0 || last < first - 1 ? DatagramAdmission::bad_numbers : DatagramAdmission::pass;
+  const bool good = is_number(first) && last >= first - 1 && last <= kHighestNumber;
+  return good ? DatagramAdmission::pass : DatagramAdmission::bad_numbers;
 }
 
 DatagramAdmission gap(const Submessage& message) {
@@ -36,7 +37,7 @@ DatagramAdmission gap(const Submessage& message) {
   if (body.size() < 28) return DatagramAdmission::cut;
   const std::int64_t start = body.sequence_number(8), base = body.sequence_number(16);
   const std::uint32_t bits = body.u32(24);
-  if (start <= 0 || base <= 0 || bits > kMaxBits) return DatagramAdmission::bad_numbers;
+  if (!is_number(start) || !is_number(base) || bits > kMaxBits) return DatagramAdmission::bad_numbers;
   return at_least(message, 28 + bytes_of_bits(bits));
 }
 
@@ -44,15 +45,15 @@ DatagramAdmission nack_fragments(const Submessage& message) {
   const ByteView& body = message.body;
   if (body.size() < 28) return DatagramAdmission::cut;
   const std::uint32_t base = body.u32(16), bits = body.u32(20);
-  if (body.sequence_number(8) <= 0 || base == 0 || bits > kMaxBits) return DatagramAdmission::bad_numbers;
+  if (!is_number(body.sequence_number(8)) || base == 0 || bits > kMaxBits) return DatagramAdmission::bad_numbers;
   return at_least(message, 28 + bytes_of_bits(bits));
 }
 
 DatagramAdmission heartbeat_fragments(const Submessage& message) {
   const ByteView& body = message.body;
   if (body.size() < 24) return DatagramAdmission::cut;
-  return body.sequence_number(8) <= 0 || body.u32(16) == 0 ? DatagramAdmission::bad_numbers
-                                                           : DatagramAdmission::pass;
+  return !is_number(body.sequence_number(8)) || body.u32(16) == 0 ? DatagramAdmission::bad_numbers
+                                                                  : DatagramAdmission::pass;
 }
 
 DatagramAdmission info_source(const Submessage& message, const GuidPrefix& sender) {

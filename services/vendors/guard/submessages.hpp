@@ -1,6 +1,8 @@
 // This file examines the kinds of submessages, one by one.
 #pragma once
 
+#include <cstdint>
+
 #include "services/vendors/guard/byte_view.hpp"
 #include "services/vendors/guard/datagram_admission.hpp"
 #include "services/vendors/guard/parameters.hpp"
@@ -13,6 +15,12 @@ struct Submessage {
   std::uint8_t flags = 0;
   ByteView body;  ///< bytes after the four of its header
 };
+
+/// Bounds the numbers of samples that are believed: a writer of a million a second has nine years until then. Fast DDS
+/// aborts on a sum of numbers that has no 64 bits.
+inline constexpr std::int64_t kHighestNumber = std::int64_t{1} << 48;
+/// Returns whether a sample can have this number (RTPS 2.3, 8.3.5.4).
+constexpr bool is_number(std::int64_t number) { return number > 0 && number <= kHighestNumber; }
 
 /// `id` is below 0x80; `sender` is the participant of the message's header.
 DatagramAdmission examine_submessage(const Submessage&, const GuidPrefix& sender);

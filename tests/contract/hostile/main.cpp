@@ -10,6 +10,7 @@
 
 #include <chrono>
 #include <iostream>
+#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -118,6 +119,27 @@ void skip_numbers(int domain) {
   }
 }
 
+// A reader of Fast DDS aborts on a last number without measure, and walks to a first one.
+void begin_late(int domain) {
+  constexpr std::int64_t kLast = std::numeric_limits<std::int64_t>::max(), kFar = std::int64_t{1} << 40;
+  Participant one(kLoopback, domain, kEprosima, 1, transport::own_announcement());
+  Participant two(kLoopback, domain, kEclipse, 2, transport::own_announcement());
+  for (Participant* participant : {&one, &two})
+    participant->add_writer(
+        {topics::goal.name, topics::goal.type_name, true, transport::partitions_of(topics::goal.scope, "")});
+  std::uint32_t count = 0;
+  for (int round = 0; wait_a_moment(); ++round) {
+    for (Participant* participant : {&one, &two}) {
+      participant->announce();
+      if (round < 5) continue;  // matched by then
+      for (const auto& [first, last] : {std::pair{std::int64_t{1}, kLast}, {kLast, kLast}, {kFar, kFar}})
+        participant->send_to_readers(
+            participant->message().heartbeat(0, writer_id(0, true), first, last, ++count));
+    }
+    say("round " + std::to_string(round));
+  }
+}
+
 void run(const std::vector<std::string>& words) {
   if (words.size() < 2)
     throw std::invalid_argument("usage: contract-hostile ROLE DOMAIN [ADDRESS ID | SEED COUNT]");
@@ -125,6 +147,7 @@ void run(const std::vector<std::string>& words) {
   say("ready");
   if (words[0] == "writers") return Attackers(kLoopback, domain).run();
   if (words[0] == "gaps") return skip_numbers(domain);
+  if (words[0] == "starts") return begin_late(domain);
   if (words.size() != 4) throw std::invalid_argument("unknown role " + words[0]);
   if (words[0] == "goals") return write_goals(address_of(words[2]), domain, words[3]);
   if (words[0] != "inject") throw std::invalid_argument("unknown role " + words[0]);

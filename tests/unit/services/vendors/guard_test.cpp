@@ -217,16 +217,16 @@ TEST(Guard, TheGapsOfOneSocketAreBoundedInTime) {
   using namespace std::chrono_literals;
   constexpr Source kSource{0x7f000001, 7413}, kAnother{0x7f000001, 7415};
   const GapBudget::Time start{1000s};
-  for (const SkippedNumbers most : {SkippedNumbers{SkippedNumbers::kMostFromStart, 0},
+  for (const SkippedNumbers& most : {SkippedNumbers{SkippedNumbers::kMostFromStart, 0},
                                     SkippedNumbers{0, SkippedNumbers::kMostFurtherUp}}) {
     GapBudget budget;
     int taken = 0;
-    while (taken < 100 && budget.take(kSource, most, start)) ++taken;
+    while (taken < 100 && budget.take(kSource, {}, most, start)) ++taken;
     EXPECT_EQ(taken, most.from_start > 0 ? 1 : 4);
-    EXPECT_FALSE(budget.take(kSource, most, start + 1s));
-    EXPECT_TRUE(budget.take(kAnother, most, start + 1s)) << "nobody spends what is another's";
-    EXPECT_TRUE(budget.take(kSource, {}, start + 1s));
-    EXPECT_TRUE(budget.take(kSource, most, start + 9s)) << "a writer that says it again is heard";
+    EXPECT_FALSE(budget.take(kSource, {}, most, start + 1s));
+    EXPECT_TRUE(budget.take(kAnother, {}, most, start + 1s)) << "nobody spends what is another's";
+    EXPECT_TRUE(budget.take(kSource, {}, {}, start + 1s));
+    EXPECT_TRUE(budget.take(kSource, {}, most, start + 9s)) << "a writer that says it again is heard";
   }
   Guard guard(Policy{{kSource.address}});
   const auto admits = [&](std::int64_t from) {
@@ -235,6 +235,55 @@ TEST(Guard, TheGapsOfOneSocketAreBoundedInTime) {
   };
   for (std::int64_t k = 0; k < 4; ++k) EXPECT_TRUE(admits(2 + k * SkippedNumbers::kMostFurtherUp));
   EXPECT_FALSE(admits(2));
+}
+
+// Fast DDS aborts on a list of 256 numbers behind the last one there is.
+TEST(Guard, NumbersThatNoWriterReachesAreNotBelieved) {
+  for (const std::int64_t number : {kHighestNumber, kHighestNumber + 1, std::numeric_limits<std::int64_t>::max()}) {
+    const auto wanted = number == kHighestNumber ? DatagramAdmission::pass : DatagramAdmission::bad_numbers;
+    EXPECT_EQ(judge(own().heartbeat(0, kUserWriter, 1, number, 1)), wanted) << number;
+    EXPECT_EQ(judge(own().heartbeat(0, kUserWriter, number, number, 1)), wanted) << number;
+    EXPECT_EQ(judge(own().acknack(7, kUserWriter, number, 0)), wanted) << number;
+    EXPECT_EQ(judge(own().gap(0, kUserWriter, number, number, 0)), wanted) << number;
+    EXPECT_EQ(judge(own().data(0, kUserWriter, number, kData, {}, kPayload)), wanted) << number;
+    EXPECT_EQ(judge(own().fragment(0, kUserWriter, number, 1, 2, 8, 16, Bytes(16))), wanted) << number;
+  }
+}
+
+// Fast DDS walks to the first number of a HEARTBEAT one by one.
+TEST(Guard, TheStartsOfWritersAreBoundedInTime) {
+  using namespace std::chrono_literals;
+  constexpr Source kSource{0x7f000001, 7413}, kAnother{0x7f000001, 7415};
+  constexpr std::int64_t kMost = SkippedNumbers::kMostFromStart / GapBudget::kCostOfStart;
+  const GapBudget::Time start{1000s};
+  const GuidPrefix one{1}, two{2};
+  const auto from = [](std::uint32_t writer, std::int64_t first) {
+    return SkippedNumbers{0, 0, {{writer, first}}};
+  };
+  GapBudget budget;
+  EXPECT_FALSE(budget.take(kSource, one, from(7, kHighestNumber), start));
+  EXPECT_TRUE(budget.take(kSource, one, from(7, kMost), start)) << "a writer with a long past";
+  EXPECT_TRUE(budget.take(kSource, one, from(7, kMost), start)) << "it says so again and again";
+  EXPECT_TRUE(budget.take(kSource, one, from(7, kMost + 1000), start)) << "and goes on";
+  EXPECT_FALSE(budget.take(kSource, one, from(8, kMost), start)) << "another writer has a walk of its own";
+  EXPECT_FALSE(budget.take(kSource, two, from(7, kMost), start)) << "so has one of another participant";
+  EXPECT_TRUE(budget.take(kAnother, one, from(7, kMost), start)) << "nobody spends what is another's";
+  EXPECT_TRUE(budget.take(kSource, one, from(8, kMost), start + 9s)) << "a writer that says it again is heard";
+  GapBudget crowd;
+  std::uint32_t taken = 0;
+  while (taken < 1000 && crowd.take(kSource, one, from(taken, SkippedNumbers::kFreeStart + 1), start)) ++taken;
+  EXPECT_EQ(taken, GapBudget::kStarts);
+  for (std::uint16_t port = 0; port < 3 * GapBudget::kSockets; ++port)
+    EXPECT_TRUE(crowd.take({1, port}, one, from(7, SkippedNumbers::kFreeStart + 1), start + 1s * port));
+  Guard guard(Policy{{kSource.address}});
+  const auto admits = [&](std::int64_t first) {
+    Bytes bytes = own().heartbeat(0, kUserWriter, first, first, 1).bytes();
+    return guard.admit(bytes, kSource) > 0;
+  };
+  EXPECT_TRUE(admits(1000));
+  EXPECT_TRUE(admits(kMost));
+  EXPECT_TRUE(admits(kMost));
+  EXPECT_FALSE(admits(3 * kMost));
 }
 
 TEST(Guard, FragmentsLieWithinTheirSampleAndAreThere) {
