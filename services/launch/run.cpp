@@ -343,10 +343,10 @@ ExitCode fly(Options options, const std::function<int()>& stop_asked) {
   if (!options.domain_given) transport.domain = claim.emplace().id();
   settle_run_folder(options, beginning.unix_us);
   const FolderLock lock(options.run_folder);
+  require_keys(options);  // before the run forgets how it was started, and how it ended
   keep_command_line_on(options, beginning.anchor, beginning.unix_us, stop_asked);
   if (options.continued) remove_outcome(options.run_folder);
 
-  require_keys(options);
   transport.participant = "launcher";
   Flight flight(options, beginning, stop_asked);
   flight.run();

@@ -1,6 +1,6 @@
-// A GAP tells a reader that a writer has no samples of some sequence numbers, and a HEARTBEAT that it has none before the
-// first. Fast DDS walks through them one by one, with the reader locked (docs/dds.md, "Reports to upstream"); this file
-// bounds what it walks through and keeps.
+// A GAP tells a reader that a writer has no samples of some sequence numbers, and a HEARTBEAT that it has none before
+// the first. Fast DDS walks through them one by one, with the reader locked (docs/dds.md, "Reports to upstream"); this
+// file bounds what it walks through and keeps.
 #pragma once
 
 #include <chrono>
@@ -20,8 +20,8 @@ struct WriterStart {
   std::int64_t first = 1;
 };
 
-/// Counts the sequence numbers that GAPs and HEARTBEATs skip. Those of a GAP that begins at number 1, as a late joiner is sent by a
-/// writer with a long past, cost time alone. Others may stand beyond what the reader has; it keeps each of
+/// Counts the sequence numbers that GAPs and HEARTBEATs skip. Those of a GAP that begins at number 1, as a late joiner
+/// is sent by a writer with a long past, cost time alone. Others may stand beyond what the reader has; it keeps each of
 /// these, some 40 bytes.
 struct SkippedNumbers {
   /// Bounds what one datagram, and one socket at a time, may skip.
@@ -52,8 +52,8 @@ class GapBudget {
   static constexpr SkippedNumbers kBurst{SkippedNumbers::kMostFromStart, 4 * SkippedNumbers::kMostFurtherUp};
   static constexpr SkippedNumbers kPerSecond{kBurst.from_start / 8, kBurst.further_up / 16};
 
-  /// Each number before the first of a HEARTBEAT costs a reader as much as four at the start of a GAP (130 ns and 30 ns,
-  /// AMD EPYC). So a writer is believed a past of 2^26 samples at once.
+  /// Each number before the first of a HEARTBEAT costs a reader as much as four at the start of a GAP (130 ns and
+  /// 30 ns, AMD EPYC). So a writer is believed a past of 2^26 samples at once.
   static constexpr std::int64_t kCostOfStart = 4;
   /// Bounds the writers of one socket, and the sockets, whose starts are remembered; of sockets the longest silent one
   /// is forgotten.
