@@ -4,6 +4,9 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
 
 #include "tests/contract/secure/key_ring.hpp"
 #include "tests/scenario/flight.hpp"
@@ -77,6 +80,28 @@ TEST(FailClosed, ARunThatCannotBeSecureDoesNotStart) {
   const Ended named = run("ROCI_SECURE=/nowhere/keys timeout 60 roci-launch " + kMission +
                           " --dds cyclonedds --headless 2>&1");
   EXPECT_EQ(named.exit_code, 2);
+}
+
+// What the run was started with, and how it ended, stays as it was.
+TEST(FailClosed, AResumeThatCannotBeSecureChangesNothing) {
+  const fs::path folder = fs::temp_directory_path() / ("roci_refused_" + std::to_string(::getpid()));
+  fs::remove_all(folder);
+  run("timeout -s KILL 3 roci-launch " + kMission + " --dds fastdds --clock live --headless --run-folder " +
+      folder.string() + " 2>&1");
+  const auto text_of = [&](const char* file) {
+    std::ifstream in(folder / file);
+    return std::string(std::istreambuf_iterator<char>(in), {});
+  };
+  const std::string begun = text_of("launch.json");
+  ASSERT_THAT(begun, HasSubstr("--run-folder"));
+  std::ofstream(folder / "summary.json") << "{}";
+  const Ended refused =
+      run("timeout 60 roci-launch --resume " + folder.string() + " --secure=/nowhere/keys 2>&1");
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.output, HasSubstr("/nowhere/keys"));
+  EXPECT_EQ(text_of("launch.json"), begun);
+  EXPECT_EQ(text_of("summary.json"), "{}");
+  fs::remove_all(folder);
 }
 
 TEST(FailClosed, AServiceWithoutAValidCertificateDoesNotStart) {
