@@ -36,6 +36,11 @@ constexpr int kCannotRun = 127;
   _exit(kCannotRun);
 }
 
+// A disk that is full or read-only keeps nobody from working; what they say is heard by others, too.
+bool takes_no_writes(int error) {
+  return error == ENOSPC || error == EDQUOT || error == EROFS || error == EIO;
+}
+
 std::string_view name_of(std::string_view variable) { return variable.substr(0, variable.find('=')); }
 
 // Returns this process's own environment, but for the variables that `more` sets.
@@ -65,7 +70,8 @@ std::string to_string(const Ending& ending) {
 
 Child::Child(const std::filesystem::path& program, std::vector<std::string> arguments,
              const std::filesystem::path& log, const std::vector<std::string>& more) {
-  const int log_file = open(log.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_NOFOLLOW | O_CLOEXEC, 0644);
+  int log_file = open(log.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_NOFOLLOW | O_CLOEXEC, 0644);
+  if (log_file < 0 && takes_no_writes(errno)) log_file = open("/dev/null", O_WRONLY | O_CLOEXEC);
   if (log_file < 0) throw std::system_error(errno, std::generic_category(), "cannot write " + log.string());
   const auto argument_list = pointers_to(arguments);
   auto environment = environment_with(more);

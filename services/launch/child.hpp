@@ -23,8 +23,8 @@ std::string to_string(const Ending&);
 class Child {
  public:
   /// Runs `program` with `arguments` (the name first) in this process's environment and `more` of it
-  /// ("NAME=value"); appends its output to `log`. The child inherits no other open file or socket. Throws
-  /// std::system_error. Call it on the main thread, with whose end the child dies.
+  /// ("NAME=value"); appends its output to `log`, or to nothing where the disk takes no writes. The child inherits no
+  /// other open file or socket. Throws std::system_error. Call it on the main thread, with whose end the child dies.
   Child(const std::filesystem::path& program, std::vector<std::string> arguments,
         const std::filesystem::path& log, const std::vector<std::string>& more = {});
   ~Child();  ///< Kills the child if it still runs.

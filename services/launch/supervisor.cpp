@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <csignal>
+#include <system_error>
 #include <utility>
 
 namespace roci::services::launch {
@@ -66,7 +67,18 @@ void Supervisor::look_after(std::pair<const std::string, Service>& entry, clock:
       after_end(name, service, *ending, now);
     }
   } else if (service.restart && *service.restart <= now) {
+    launch_again(name, service, now);
+  }
+}
+
+// The machine may have no room for a process for a while; the run does not end for that.
+void Supervisor::launch_again(const std::string& name, Service& service, clock::WallTime now) {
+  const std::uint32_t incarnation = service.incarnation;
+  try {
     launch(name, service, now);
+  } catch (const std::system_error& error) {
+    service.incarnation = incarnation;
+    start_again(name, service, error.what(), RestartPolicy::kHelperPause, now);
   }
 }
 

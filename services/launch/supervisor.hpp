@@ -50,7 +50,8 @@ class Supervisor {
              Hooks, std::uint32_t incarnations = 0);
 
   void start(clock::WallTime now);  ///< Throws what Hooks::start throws.
-  /// Looks after ended and hung children, due restarts, and the end of the run. It is to be called often.
+  /// Looks after ended and hung children, due restarts, and the end of the run. It is to be called often. A restart for
+  /// which Hooks::start throws std::system_error is told as a death and tried again later.
   void turn(clock::WallTime now);
   /// Asks the run to end; the second time less politely.
   void stop(clock::WallTime now);
@@ -73,6 +74,7 @@ class Supervisor {
     std::string hung_reason;  // empty: it was not killed as hung
   };
   void launch(const std::string& name, Service&, clock::WallTime now);
+  void launch_again(const std::string& name, Service&, clock::WallTime now);
   void look_after(std::pair<const std::string, Service>&, clock::WallTime now);
   void after_end(const std::string& name, Service&, const Ending&, clock::WallTime now);
   void start_again(const std::string& name, Service&, const std::string& what, clock::WallDuration pause,

@@ -4,9 +4,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cerrno>
 #include <csignal>
 #include <filesystem>
 #include <map>
+#include <system_error>
 
 #include "services/launch/child.hpp"
 #include "services/launch/restart_policy.hpp"
@@ -48,6 +50,7 @@ class SupervisorTest : public testing::Test {
     if (add) add(hooks);
     hooks.start = [this](const std::string& service, std::uint32_t incarnation) {
       starts.push_back(service + "#" + std::to_string(incarnation));
+      if (no_room) throw std::system_error(EAGAIN, std::generic_category(), "cannot start " + service);
       auto child = std::make_unique<Child>("/bin/sh", std::vector<std::string>{"sh", "-c", script[service]},
                                            folder / "log");
       pids[service] = child->pid();
@@ -70,6 +73,7 @@ class SupervisorTest : public testing::Test {
   std::vector<std::string> starts;
   std::vector<std::string> deaths;
   std::map<std::string, pid_t> pids;
+  bool no_room = false;  // for another process
 };
 
 TEST_F(SupervisorTest, ACleanEndOfAllIsTheEnd) {
@@ -79,6 +83,23 @@ TEST_F(SupervisorTest, ACleanEndOfAllIsTheEnd) {
   turn_until(supervisor, start, [&] { return supervisor.finished(); });
   EXPECT_FALSE(supervisor.failure());
   EXPECT_THAT(starts, ElementsAre("arm_svc#1", "sim_svc#1"));
+}
+
+TEST_F(SupervisorTest, ARestartForWhichThereIsNoRoomIsTriedAgainLater) {
+  script = {{"arm_svc", "kill -9 $$"}, {"sim_svc", "exec tail -f /dev/null"}};
+  auto supervisor = make({"arm_svc", "sim_svc"});
+  supervisor.start(start);
+  turn_until(supervisor, start, [&] { return deaths.size() == 1; });
+  no_room = true;
+  supervisor.turn(start + 1s);
+  ASSERT_EQ(deaths.size(), 2U);
+  EXPECT_THAT(deaths[1], HasSubstr("arm_svc cannot start arm_svc: Resource temporarily unavailable; starting it again"));
+  no_room = false;
+  script["arm_svc"] = "exec tail -f /dev/null";
+  supervisor.turn(start + 1s + RestartPolicy::kHelperPause);
+  EXPECT_THAT(starts, ElementsAre("arm_svc#1", "sim_svc#1", "arm_svc#2", "arm_svc#2"));
+  EXPECT_FALSE(supervisor.failure());
+  EXPECT_FALSE(supervisor.finished());
 }
 
 TEST_F(SupervisorTest, ADeadServiceIsStartedAgainAsTheNextIncarnation) {
