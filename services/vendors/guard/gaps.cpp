@@ -37,16 +37,14 @@ GapBudget::Spent GapBudget::Spent::by(Time now) const {
 bool GapBudget::take(const Source& source, const GuidPrefix& sender, const SkippedNumbers& numbers,
                      Time now) {
   if (numbers.none()) return true;
+  if (numbers.starts.size() > kStarts) return false;
   std::int64_t walked = 0;
   const auto known = starts_.find(source);
   for (const WriterStart& start : numbers.starts) {
     std::int64_t from = SkippedNumbers::kFreeStart;
     if (known != starts_.end()) {
       const auto before = known->second.firsts.find({sender, start.writer});
-      if (before != known->second.firsts.end())
-        from = before->second;
-      else if (known->second.firsts.size() + numbers.starts.size() > kStarts)
-        return false;
+      if (before != known->second.firsts.end()) from = before->second;
     }
     walked += kCostOfStart * std::clamp(start.first - from, std::int64_t{0}, kBurst.from_start + 1);
     if (walked > kBurst.from_start) return false;
@@ -73,6 +71,7 @@ void GapBudget::remember(const Source& source, const GuidPrefix& sender, const S
     starts_.erase(std::ranges::min_element(starts_, {}, [](const auto& one) { return one.second.heard; }));
   Starts& of = starts_[source];
   of.heard = now;
+  if (of.firsts.size() + numbers.starts.size() > kStarts) of.firsts.clear();
   for (const WriterStart& start : numbers.starts) {
     std::int64_t& first = of.firsts[{sender, start.writer}];
     first = std::max(first, start.first);

@@ -55,8 +55,9 @@ class GapBudget {
   /// Each number before the first of a HEARTBEAT costs a reader as much as four at the start of a GAP (130 ns and
   /// 30 ns, AMD EPYC). So a writer is believed a past of 2^26 samples at once.
   static constexpr std::int64_t kCostOfStart = 4;
-  /// Bounds the writers of one socket, and the sockets, whose starts are remembered; of sockets the longest silent one
-  /// is forgotten.
+  /// Bound the writers of one socket, and the sockets, whose starts are remembered. Of sockets the longest silent one
+  /// is forgotten; of one socket all are, so that those of participants which are gone leave, and who still speaks pays
+  /// once more.
   static constexpr std::size_t kStarts = 256, kSockets = 1024;
 
   /// Takes these numbers, which a participant has said, from the budget of its socket, or returns false and takes none.
