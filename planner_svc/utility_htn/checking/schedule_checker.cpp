@@ -1,17 +1,15 @@
 #include "planner_svc/utility_htn/checking/schedule_checker.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <set>
 #include <utility>
 
+#include "core/temporal/plan_delta.hpp"
 #include "planner_svc/utility_htn/checking/course.hpp"
 #include "planner_svc/utility_htn/checking/parts.hpp"
 #include "planner_svc/utility_htn/checking/version.hpp"
 
 namespace roci::planner::utility_htn::checking {
-
-using temporal::Time;
 
 namespace {
 
@@ -70,7 +68,8 @@ class Reading {
     const Step& step = *found->second;
     told_.insert(step.id);
     const bool waits = step.start > question_.now && !step.due;
-    if (waits && plan_is_new_ && !step.committed && (told.start != step.start || told.end != end_of(question_, step)))
+    const bool moved = told.start != step.start || told.end != end_of(question_, step);
+    if (moved && waits && plan_is_new_ && !step.committed)
       out_.push_back("downlink '" + told.activity + "' has other times than in the plan");
     const auto w = static_cast<std::uint32_t>(question_.downlinks.windows.size());
     Window& window = question_.downlinks.windows.emplace_back();
