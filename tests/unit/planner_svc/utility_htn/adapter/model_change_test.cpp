@@ -12,6 +12,7 @@
 #include "planner_svc/utility_htn/adapter/utility_engine.hpp"
 #include "planner_svc/utility_htn/reading/binary.hpp"
 #include "planner_svc/utility_htn/reading/load.hpp"
+#include "tests/unit/planner_svc/utility_htn/adapter/outlook_fixture.hpp"
 
 namespace roci::planner::utility_htn::adapter {
 namespace {
@@ -28,20 +29,12 @@ model::Task& task(model::Network& network, const std::string& id) {
   return *std::ranges::find(network.tasks, id, &model::Task::id);
 }
 
-engine::Goal mission() {
-  engine::Goal out;
-  out.issuer = "ground";
-  out.id = "network";
-  out.kind = "mission";
-  return out;
-}
-
 // Stands in for the executive: takes every version at once.
 class ModelChanges : public ::testing::Test {
  protected:
   ModelChanges() {
     StepInputs inputs;
-    inputs.goals.push_back(mission());
+    inputs.goals.push_back(whole_mission());
     step(std::move(inputs));
   }
 
@@ -167,7 +160,7 @@ TEST_F(ModelChanges, WhatWasGivenUpStaysSoInANewNetwork) {
   EXPECT_THAT(send(next), IsEmpty());
   EXPECT_EQ(planned("dig_near"), nullptr);
   StepInputs asked;
-  asked.goals.push_back(mission());
+  asked.goals.push_back(whole_mission());
   asked.goals.back().id = asked.goals.back().kind = "request";
   asked.goals.back().arguments = {{"task", "sample_near"}};
   step(std::move(asked));
@@ -219,7 +212,7 @@ TEST_F(ModelChanges, APlanOfTheNetworkBeforeIsGoneOnWithAfterARestart) {
   UtilityEngine after(setup(), next);
   StepInputs inputs;
   inputs.now = now_ + temporal::seconds(1);
-  inputs.goals.push_back(mission());
+  inputs.goals.push_back(whole_mission());
   inputs.executed = plan_;
   inputs.last_version = plan_.version;
   inputs.receipt = engine::Receipt{plan_.version, 0, "", "", true};
@@ -277,7 +270,7 @@ class TheWordOfTheGround : public ::testing::Test {
                          reading::load_network(ROCI_SOURCE_DIR "/missions/europa/network-rsm1.yaml"));
     StepInputs inputs;
     inputs.now = temporal::seconds(10);
-    inputs.goals.push_back(mission());
+    inputs.goals.push_back(whole_mission());
     inputs.receipt = engine::Receipt{0, 0, "", "", true};
     inputs.observations = said;
     const StepOutput out = engine.step(inputs);
