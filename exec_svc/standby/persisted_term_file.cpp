@@ -4,6 +4,7 @@
 #include <string>
 #include <system_error>
 
+#include "core/bytes/crc_32.hpp"
 #include "core/durable/durable_file.hpp"
 #include "exec_svc/journal/database_files.hpp"
 
@@ -20,14 +21,20 @@ namespace {
 // Exceeds the epochs in which a member may have led since its journal was last written.
 constexpr std::uint64_t kEpochsBeyondJournal = 100;
 
+// Returns the term as the file has it; a checksum of this text stands behind it.
+std::string term_text(const PersistedTerm& term) {
+  return std::to_string(term.epoch) + ' ' + std::to_string(term.alone) + ' ' + std::to_string(term.holds);
+}
+
 }  // namespace
 
 PersistedTerm PersistedTermFile::read() const {
   if (!fs::exists(file_)) return {};
   PersistedTerm out;
   std::ifstream in(file_);
-  if (!(in >> out.epoch >> out.alone)) throw JournalError(file_.string() + " is damaged");
-  if (!(in >> out.holds)) out.holds = out.epoch;  // written by a member that did not keep it
+  std::uint32_t stated = 0;
+  if (!(in >> out.epoch >> out.alone >> out.holds >> stated) || stated != bytes::crc_32(term_text(out)))
+    throw JournalError(file_.string() + " is damaged");
   return out;
 }
 
@@ -48,8 +55,8 @@ void PersistedTermFile::keep(const PersistedTerm& persisted_term) {
 }
 
 void PersistedTermFile::write(const PersistedTerm& persisted_term) const {
-  const std::string text = std::to_string(persisted_term.epoch) + ' ' + std::to_string(persisted_term.alone) +
-                           ' ' + std::to_string(persisted_term.holds) + '\n';
+  const std::string term = term_text(persisted_term);
+  const std::string text = term + ' ' + std::to_string(bytes::crc_32(term)) + '\n';
   durable::replace_file(
       file_, text,
       durability_ == Durability::power ? durable::Durability::power : durable::Durability::process);

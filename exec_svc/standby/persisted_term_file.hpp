@@ -17,7 +17,8 @@ class PersistedTermFile {
   PersistedTermFile(std::filesystem::path file, journal::Durability durability)
       : file_(std::move(file)), durability_(durability) {}
 
-  /// Reads the term; it is as new if there is no file. Throws JournalError for one that cannot be read.
+  /// Reads the term; it is as new if there is no file. Throws JournalError for one that cannot be read, or
+  /// whose checksum is that of another term.
   PersistedTerm read() const;
   /// Keeps a file that cannot be read as FILE.damaged-1 (2, …), whose name it returns, and begins a new one with the
   /// term of a member whose journal ends here. That member is in doubt: it has led, if at all, in epochs that nobody

@@ -53,14 +53,19 @@ std::string take_resumed_folder(std::vector<std::string>& arguments) {
   throw std::invalid_argument("--resume " + folder.string() + ": " + why);
 }
 
+[[noreturn]] void refuse_damaged(const fs::path& folder) {
+  refuse(folder, std::string(kContinuationFile) + " is damaged; start a new run");
+}
+
 json read_file(const fs::path& folder) {
   const fs::path file = folder / kContinuationFile;
   std::ifstream in(file);
   if (!in) refuse(folder, "there is no " + std::string(kContinuationFile) + " of a run in it");
   const json kept = json::parse(in, nullptr, false);
-  if (!kept.is_object()) refuse(folder, file.filename().string() + " is damaged; start a new run");
-  if (kept.value("format", 0) > kContinuationFormat)
-    refuse(folder, "a newer version began the run; go on with that one");
+  if (!kept.is_object()) refuse_damaged(folder);
+  const auto format = kept.find("format");
+  if (format == kept.end() || !format->is_number_integer()) refuse_damaged(folder);
+  if (*format > kContinuationFormat) refuse(folder, "a newer version began the run; go on with that one");
   return kept;
 }
 
@@ -112,7 +117,7 @@ ContinuedCommandLine continued_command_line(int argc, const char* const* argv) {
   if (const fs::path folder = take_resumed_folder(given); !folder.empty()) {
     const json kept = read_file(folder);
     try {
-      if (kept.at("clock") != "live") {
+      if (kept.at("clock").get<std::string>() != "live") {
         refuse(
             folder,
             "on the simulated clock the world ends with its run, and nobody can go on in it; only runs with "
@@ -122,8 +127,10 @@ ContinuedCommandLine continued_command_line(int argc, const char* const* argv) {
       out.continued = Continuation{kept.at("epoch_unix_us"), clock::anchor_of(kept.value("anchor", "")),
                                    kept.at("launchers")};
     } catch (const json::exception&) {
-      refuse(folder, std::string(kContinuationFile) + " is damaged; start a new run");
+      refuse_damaged(folder);
     }
+    out.earlier = out.arguments;
+    std::ranges::reverse(out.earlier);
     const std::string there = fs::absolute(folder).lexically_normal().string();
     out.arguments.insert(out.arguments.end(), {"--run-folder", there});  // it may have been moved
   }

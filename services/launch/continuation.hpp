@@ -34,6 +34,8 @@ struct ContinuedCommandLine {
   /// Holds the arguments without the program, in the order that CLI11 takes: the last one first.
   std::vector<std::string> arguments;
   std::optional<Continuation> continued;
+  /// Holds those of the launcher before, in the same order; none without --resume.
+  std::vector<std::string> earlier{};
 };
 
 /// Returns the command line as it is, or, with --resume, with that of the first launcher before it. Throws

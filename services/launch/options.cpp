@@ -101,7 +101,8 @@ void declare_options(CLI::App& app, Options& options, Words& words) {
   app.add_option("--run-folder", options.run_folder, "Folder for journal, logs and summary");
   app.add_option("--resume",
                  "Go on with the live run of this run folder, whose launcher has ended, as it was started; "
-                 "other options replace those of then")
+                 "other options replace those of then, but for what makes it another run (scenario, seed, "
+                 "clock, run)")
       ->type_name("RUN_FOLDER");
 }
 
@@ -136,6 +137,23 @@ void choose_services(Options& options, Words words) {
     throw std::invalid_argument("--standby: no service of this mission has standby: true");
 }
 
+// Who goes on with a run flies that run: what makes it another one is refused.
+void refuse_another_run(const std::vector<std::string>& earlier, const Options& options, const Words& words) {
+  Options before;
+  const Words said = read_words(earlier, before);
+  const auto require = [](const std::string& option, const std::string& then, const std::string& now) {
+    if (then != now)
+      throw std::invalid_argument("--resume: the run was started with " + option + " " + then +
+                                  ", and cannot go on with " + now + "; leave it out, or start a new run");
+  };
+  require("--scenario", before.scenario, options.scenario);
+  require("--seed", std::to_string(before.seed), std::to_string(options.seed));
+  require("--clock", said.clock, words.clock);
+  require("--run", before.run, options.run);
+  if (!options.become.empty())
+    throw std::invalid_argument("--resume goes on with a whole run, and --become with one service; choose one");
+}
+
 // A run that one launcher flies alone is like no other; hosts that share one are told its name, or take the
 // mission's.
 std::string default_run(const Options& options) {
@@ -162,6 +180,7 @@ Options parse_options(int argc, const char* const* argv, const services::process
   Options options;
   options.continued = line.continued;
   const Words words = read_words(std::move(line.arguments), options);
+  if (options.continued) refuse_another_run(line.earlier, options, words);
   options.mission = process::mission_folder(words.mission);
   options.live = words.clock == "live";
   options.speed = parse_speed(words.speed);

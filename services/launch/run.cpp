@@ -107,6 +107,7 @@ services::process::RunRecord record_of(const Options& options, std::int64_t star
           options.run_folder,
           options.live ? "live" : "simulated",
           started_unix_us,
+          services::process::start_of_process(getpid()),
           options.run,
           options.connection.keys,
           options.connection.network};

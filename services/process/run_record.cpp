@@ -8,6 +8,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <sstream>
 
 #include "core/durable/durable_file.hpp"
 #include "services/process/private_folder.hpp"
@@ -17,6 +18,8 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
+
+constexpr int kStartField = 22;  // of /proc/PID/stat, counted from 1 (proc(5))
 
 json to_json(const RunRecord& run) {
   return {{"format", kRunRecordFormat},
@@ -30,6 +33,7 @@ json to_json(const RunRecord& run) {
           {"run_folder", run.run_folder.string()},
           {"clock", run.clock},
           {"started_unix_us", run.started_unix_us},
+          {"pid_started", run.pid_started},
           {"run", run.run},
           {"keys", run.keys.string()},
           {"network", run.network.string()}};
@@ -57,6 +61,7 @@ std::optional<RunRecord> read(const fs::path& file) {
     run.run_folder = record.at("run_folder").get<std::string>();
     run.clock = record.at("clock");
     run.started_unix_us = record.at("started_unix_us");
+    run.pid_started = record.value("pid_started", std::uint64_t{0});
     run.run = record.value("run", "");
     run.keys = record.value("keys", "");
     run.network = record.value("network", "");
@@ -66,7 +71,12 @@ std::optional<RunRecord> read(const fs::path& file) {
   }
 }
 
-bool lives(std::int64_t pid) { return kill(static_cast<pid_t>(pid), 0) == 0 || errno == EPERM; }
+bool is_process(std::int64_t pid) { return kill(static_cast<pid_t>(pid), 0) == 0 || errno == EPERM; }
+
+// Another process may have the number of a launcher that was killed.
+bool lives(const RunRecord& run) {
+  return is_process(run.pid) && (run.pid_started == 0 || run.pid_started == start_of_process(run.pid));
+}
 
 std::vector<fs::path> records_in(const fs::path& folder) {
   std::vector<fs::path> out;
@@ -88,8 +98,24 @@ fs::path runtime_folder() {
   return folder;
 }
 
+std::uint64_t start_of_process(std::int64_t pid) {
+  std::ifstream stat("/proc/" + std::to_string(pid) + "/stat");
+  std::string text;
+  std::getline(stat, text);
+  const std::size_t name_end = text.rfind(')');  // a name may have blanks and brackets
+  if (name_end == std::string::npos) return 0;
+  std::istringstream fields(text.substr(name_end + 1));
+  std::string word;
+  for (int field = 3; field <= kStartField; ++field)
+    if (!(fields >> word)) return 0;
+  return std::strtoull(word.c_str(), nullptr, 10);
+}
+
 PublishedRun::PublishedRun(const fs::path& folder, const RunRecord& run)
     : file_(folder / ("run-" + std::to_string(run.pid) + ".json")) {
+  std::error_code ignored;
+  for (const fs::path& file : records_in(folder))
+    if (const auto other = read(file); other && !lives(*other)) fs::remove(file, ignored);
   durable::replace_file(file_, to_json(run).dump(2) + "\n");
 }
 
@@ -101,7 +127,7 @@ PublishedRun::~PublishedRun() {
 std::vector<RunRecord> find_runs(const fs::path& folder) {
   std::vector<RunRecord> runs;
   for (const fs::path& file : records_in(folder)) {
-    if (auto run = read(file); run && lives(run->pid)) runs.push_back(std::move(*run));
+    if (auto run = read(file); run && lives(*run)) runs.push_back(std::move(*run));
   }
   std::ranges::sort(runs, std::greater<>{}, &RunRecord::started_unix_us);
   return runs;
@@ -114,7 +140,7 @@ std::vector<std::string> refused_runs(const fs::path& folder) {
     const json record = json::parse(in, nullptr, false);
     if (!record.is_object() || format_of(record) <= kRunRecordFormat) continue;
     const auto pid = record.find("pid");
-    if (pid != record.end() && pid->is_number_integer() && !lives(pid->get<std::int64_t>())) continue;
+    if (pid != record.end() && pid->is_number_integer() && !is_process(pid->get<std::int64_t>())) continue;
     out.push_back(file.string() + " is of format " + std::to_string(format_of(record)) +
                   ", this version reads up to " + std::to_string(kRunRecordFormat) +
                   "; use the programs that the run was started with");

@@ -25,6 +25,7 @@ struct RunRecord {
   std::filesystem::path run_folder;
   std::string clock;  ///< "live" or "simulated"
   std::int64_t started_unix_us = 0;
+  std::uint64_t pid_started = 0;    ///< start_of_process(pid); 0: not known
   std::string run{};                // identity; empty in records of before there were any
   std::filesystem::path keys{};     ///< key folder of a secure run; empty: the run is plain
   std::filesystem::path network{};  ///< network file that it was given; empty: none
@@ -36,7 +37,12 @@ struct RunRecord {
 /// std::runtime_error where somebody else has made it.
 std::filesystem::path runtime_folder();
 
-/// Publishes the record of a run for as long as this object lives.
+/// Returns when a process began, in the kernel's ticks since the host's start (proc(5), starttime); 0 if it is not known.
+/// No two processes of a host have number and beginning in common.
+std::uint64_t start_of_process(std::int64_t pid);
+
+/// Publishes the record of a run for as long as this object lives. Records of launchers that have ended without removing
+/// theirs are removed.
 class PublishedRun {
  public:
   PublishedRun(const std::filesystem::path& folder, const RunRecord&);

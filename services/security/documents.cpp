@@ -8,6 +8,7 @@ namespace {
 constexpr char kXml[] = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
 // Cyclone DDS has no domain above 230.
 constexpr char kEveryDomain[] = "<domains><id_range><min>0</min><max>230</max></id_range></domains>\n";
+constexpr char kDate[] = "%Y-%m-%dT%H:%M:%SZ";
 
 // Fast DDS reads it as local time and ignores the Z, so that it may be off by half a day.
 std::string date_of(std::int64_t unix_s) {
@@ -15,8 +16,23 @@ std::string date_of(std::int64_t unix_s) {
   std::tm utc{};
   gmtime_r(&time, &utc);
   char text[32];
-  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &utc);
+  std::strftime(text, sizeof text, kDate, &utc);
   return text;
+}
+
+// Returns the text of the first element of this name; none where there is no such element.
+std::optional<std::string> element(const std::string& xml, const std::string& name) {
+  const std::string open = "<" + name + ">";
+  const std::size_t begin = xml.find(open);
+  const std::size_t end = xml.find("</" + name + ">");
+  if (begin == std::string::npos || end == std::string::npos || end < begin + open.size()) return std::nullopt;
+  return xml.substr(begin + open.size(), end - begin - open.size());
+}
+
+std::optional<std::int64_t> time_of(const std::optional<std::string>& date) {
+  std::tm utc{};
+  if (!date || strptime(date->c_str(), kDate, &utc) == nullptr) return std::nullopt;
+  return timegm(&utc);
 }
 
 std::string criteria(const char* verb, const std::vector<std::string>& topics,
@@ -62,6 +78,8 @@ std::string governance() {
          "</domain_rule></domain_access_rules></dds>\n";
 }
 
+bool is_governance(const std::string& document) { return element(document, "domain_access_rules").has_value(); }
+
 std::string permissions(const std::string& service, const std::string& subject, const std::set<Role>& roles,
                         const std::string& robot, const Validity& validity) {
   using transport::Scope;
@@ -70,6 +88,14 @@ std::string permissions(const std::string& service, const std::string& subject, 
          date_of(validity.end) + "</not_after></validity>\n" + rule(roles, Scope::everyone, robot) +
          rule(roles, Scope::team, robot) + rule(roles, Scope::robot, robot) +
          "<default>DENY</default>\n</grant></permissions></dds>\n";
+}
+
+std::optional<Grant> grant_of(const std::string& permissions) {
+  const auto subject = element(permissions, "subject_name");
+  const auto begin = time_of(element(permissions, "not_before"));
+  const auto end = time_of(element(permissions, "not_after"));
+  if (!subject || !begin || !end) return std::nullopt;
+  return Grant{*subject, {*begin, *end}};
 }
 
 }  // namespace roci::services::security

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <set>
 #include <string>
 
@@ -15,6 +16,8 @@ namespace roci::services::security {
 /// messages and submessages are encrypted; each write and read needs a right. Payloads are not encrypted once more
 /// (data_protection_kind NONE), since the two vendors do not understand each other's.
 std::string governance();
+/// Returns whether a text is the governance of domains, and not other permissions.
+bool is_governance(const std::string& document);
 
 inline constexpr std::int64_t kDay = 24 * 60 * 60;  ///< seconds
 
@@ -28,5 +31,14 @@ struct Validity {
 /// inner ones in the partitions of `robot` alone (transport/scope.hpp). All else is denied.
 std::string permissions(const std::string& service, const std::string& subject, const std::set<Role>& roles,
                         const std::string& robot, const Validity&);
+
+/// Says whose permissions these are, and for how long.
+struct Grant {
+  std::string subject;  ///< RFC 2253
+  Validity validity;
+};
+
+/// Returns the grant of a text that permissions() wrote; none of any other.
+std::optional<Grant> grant_of(const std::string& permissions);
 
 }  // namespace roci::services::security

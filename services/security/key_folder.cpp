@@ -55,14 +55,30 @@ std::string text_of(const fs::path& file) {
   return text.str();
 }
 
-void require_signed(const fs::path& document, const X509& authority, const fs::path& folder) {
+std::string signed_text(const fs::path& document, const X509& authority, const fs::path& folder) {
   const std::string message = read_or_refuse(document, folder, text_of);
   try {
-    verified_document(message, authority);
+    return verified_document(message, authority);
   } catch (const std::runtime_error&) {
     throw KeyError(document.string() + " is not signed by the authority of " + folder.string() +
                    "; sign it with " + remedy("make MISSION", folder));
   }
+}
+
+// Both vendors would find what is wrong with these files themselves, but only once the run has begun.
+void require_documents_of(const std::string& service, std::string_view vendor,
+                          const transport::Credentials& files, const X509& signer, const fs::path& folder,
+                          std::int64_t now_s) {
+  const std::string make = remedy("make MISSION", folder);
+  if (!is_governance(signed_text(files.governance, signer, folder)))
+    throw KeyError(files.governance.string() + " is another document; sign the right one with " + make);
+  const auto grant = grant_of(signed_text(files.permissions, signer, folder));
+  if (!grant || grant->subject != certificate::subject_of(service, vendor).text())
+    throw KeyError(files.permissions.string() + " does not hold the permissions of " + service + " for " +
+                   std::string(vendor) + "; sign them with " + make);
+  if (now_s < grant->validity.begin || now_s >= grant->validity.end)
+    throw KeyError(files.permissions.string() + " holds from " + date_text(grant->validity.begin) + " to " +
+                   date_text(grant->validity.end) + ", and not as long as the certificate; sign it with " + make);
 }
 
 }  // namespace
@@ -125,9 +141,11 @@ transport::Credentials checked_credentials(const fs::path& given, const std::str
   if (now_s >= validity_of(*authority).end)
     throw KeyError("the authority of " + folder.string() + " ran out on " +
                    date_text(validity_of(*authority).end) + "; make another key folder");
+  if (!is_signed_by(*revoked, *authority))
+    throw KeyError(files.revoked.string() + " is not from the authority of " + folder.string() +
+                   "; copy " + files.revoked.filename().string() + " from the ground's key folder");
   if (is_revoked(*own, *revoked)) throw KeyError(whose + " was revoked; make a new one with " + renew);
-  require_signed(files.governance, *signer, folder);
-  require_signed(files.permissions, *signer, folder);
+  require_documents_of(service, vendor, files, *signer, folder, now_s);
   return files;
 }
 

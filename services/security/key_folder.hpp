@@ -31,8 +31,8 @@ transport::Credentials files_of(const std::filesystem::path& folder, const std::
                                 std::string_view vendor);
 
 /// Returns the credentials of a service at a vendor at `now_s` (seconds since 1970). Throws KeyError where a file is
-/// missing or damaged, others than its owner may read a private key, or the certificate has run out, has been revoked,
-/// or is of another authority, service or vendor.
+/// missing or damaged, others than its owner may read a private key, the certificate has run out or been revoked, or a
+/// file is of another authority, service or vendor.
 transport::Credentials checked_credentials(const std::filesystem::path& folder, const std::string& service,
                                            std::string_view vendor, std::int64_t now_s);
 

@@ -234,6 +234,12 @@ bool is_signed_by(const X509& certificate, const X509& authority) {
   return good;
 }
 
+bool is_signed_by(const X509_CRL& list, const X509& authority) {
+  const bool good = X509_CRL_verify(const_cast<X509_CRL*>(&list), X509_get0_pubkey(&authority)) == 1;
+  ERR_clear_error();
+  return good;
+}
+
 bool belongs_to(const X509& certificate, const Key& key) {
   const bool good = X509_check_private_key(const_cast<X509*>(&certificate), key.get()) == 1;
   ERR_clear_error();

@@ -64,6 +64,7 @@ std::string serial_of(const X509&);
 std::vector<std::uint8_t> subject_der(const X509&);
 Validity validity_of(const X509&);
 bool is_signed_by(const X509&, const X509& authority);
+bool is_signed_by(const X509_CRL&, const X509& authority);
 bool belongs_to(const X509&, const Key&);
 bool is_revoked(const X509&, const X509_CRL&);
 

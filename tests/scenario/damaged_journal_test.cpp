@@ -13,6 +13,7 @@
 #include "exec_svc/journal/high_water_mark.hpp"
 #include "exec_svc/journal/journal.hpp"
 #include "exec_svc/journal/salvage.hpp"
+#include "exec_svc/standby/persisted_term_file.hpp"
 #include "tests/fuzz/rounds.hpp"
 #include "tests/scenario/flight.hpp"
 
@@ -60,7 +61,7 @@ class DamagedJournal : public ::testing::Test {
 
   // Starts exec_svc on each of them, several at once, and ends it after a while with SIGTERM. A file with its exit code
   // stands in each run folder then.
-  void start_on(const std::vector<std::string>& journals) const {
+  void start_on(const std::vector<std::string>& journals, const std::string& options = "") const {
     std::string script = "cd " + folder.string() + "; ";
     for (std::size_t i = 0; i < journals.size(); ++i) {
       fs::create_directories(run_folder(i));
@@ -70,7 +71,7 @@ class DamagedJournal : public ::testing::Test {
                 "/missions/planetary --clock live --epoch $(date +%s) --robot rover --dds cyclonedds --run "
                 "damaged-" +
                 std::to_string(::getpid()) + "-" + std::to_string(i) + " --domain " +
-                std::to_string(101 + i % 100) + " --run-folder " + run_folder(i).string() + " > " +
+                std::to_string(101 + i % 100) + " --run-folder " + run_folder(i).string() + " " + options + " > " +
                 (run_folder(i) / "log").string() + " 2>&1; echo $? > " + (run_folder(i) / "code").string() +
                 ") & ";
       if (i % 6 == 5) script += "wait; ";
@@ -120,6 +121,21 @@ TEST_F(DamagedJournal, AFlippedBitOfTheVersionKeepsNobodyFromStarting) {
   low[63] = static_cast<char>(low[63] ^ 0x04);
   start_on({high, low});
   for (const std::size_t number : {0U, 1U}) EXPECT_EQ(goals_after(number, true), kGoals);
+}
+
+// A changed digit of a pair's term would be another term, that may lead, in epochs that were used before.
+TEST_F(DamagedJournal, AFlippedDigitOfTheTermPutsTheMemberOfAPairInDoubt) {
+  fs::create_directories(run_folder(0));
+  const fs::path standing = run_folder(0) / "standing";
+  exec::standby::PersistedTermFile(standing, Durability::process).keep({7, false, 6});
+  std::string term = content(0, "standing");
+  ASSERT_EQ(term.front(), '7');
+  std::ofstream(standing) << term.replace(0, 1, "3");
+  start_on({whole}, "--pair first");
+  EXPECT_EQ(content(0, "code"), "0\n");
+  EXPECT_NE(content(0, "log").find("standing is damaged"), std::string::npos) << content(0, "log");
+  EXPECT_EQ(content(0, "standing.damaged-1"), term);
+  EXPECT_GE(exec::standby::PersistedTermFile(standing, Durability::process).read().epoch, 100U);
 }
 
 // The newest commits are gone, and only the mark beside the journal knows: nothing goes on as if they had not been.

@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # Flies a mission live on a given domain, kills the launcher, lets another run have the domain, and goes on with --resume.
 #   resume_beside_another_run.sh BIN_FOLDER MISSION DDS DOMAIN
-# Prints steps as ground_and_kills.sh does: "fresh" (exit code and last words of a run that is begun beside the other) and
-# "run" (exit code of the resumed launcher after SIGTERM, once it has started its executive; its summary).
+# Prints steps as ground_and_kills.sh does: "fresh" (exit code and last words of a run that is begun beside the other), three
+# of a --resume that is refused ("another_clock", "another_scenario", and "damaged", on a launch.json that is so), and "run"
+# (exit code of the resumed launcher after SIGTERM, once it has started its executive; its summary).
 set -uo pipefail
 bin=$1 mission=$2 dds=$3 domain=$4
 folder=$(mktemp -d)
@@ -35,6 +36,16 @@ other=$!
 until_so grep -aqs goal.accepted "$folder/other/journal.sqlite-wal"
 (launch third)
 step fresh $? "\"$(tail -n 1 "$folder/third.out" | tr -d '"')\""
+refused() {  # name options…
+  "$bin/roci-launch" --resume "$folder/mine" "${@:2}" >"$folder/refused" 2>&1
+  step "$1" $? "\"$(tail -n 1 "$folder/refused" | tr -d '"')\""
+}
+refused another_clock --clock simulated
+refused another_scenario --scenario arm_stuck
+cp "$folder/mine/launch.json" "$folder/whole.json"
+sed -i 's/"format": 1/"format": "x"/' "$folder/mine/launch.json"
+refused damaged
+cp "$folder/whole.json" "$folder/mine/launch.json"
 "$bin/roci-launch" --resume "$folder/mine" >"$folder/summary" 2>"$folder/said" &
 launcher=$!
 until_so eval "pgrep -P $launcher exec_svc >/dev/null || ! kill -0 $launcher 2>/dev/null"

@@ -50,6 +50,13 @@ TEST_P(Resume, WaitsForANetworkThatIsOut) {
   EXPECT_EQ(steps["waits"].exit_code, 0) << ended.output;
   EXPECT_EQ(steps["waits"].printed, "1") << "it says so once";
   EXPECT_EQ(steps["back"].exit_code, 0) << ended.output;
+  const auto refused = [&](const char* step, const char* words) {
+    EXPECT_EQ(steps[step].exit_code, 2) << ended.output;
+    EXPECT_THAT(steps[step].printed.get<std::string>(), ::testing::HasSubstr(words)) << ended.output;
+  };
+  refused("another_clock", "started with --clock live");
+  refused("another_scenario", "started with --scenario nominal");
+  refused("damaged", "launch.json is damaged");
   EXPECT_EQ(steps["run"].exit_code, 1) << "ended by us, not for a network";
 }
 

@@ -123,6 +123,23 @@ TEST(FailClosed, AServiceWithoutAValidCertificateDoesNotStart) {
   EXPECT_EQ(whole.exit_code, 2) << "before anything starts";
 }
 
+// The vendors would find it when the run has begun.
+TEST(FailClosed, AServiceWithTheDocumentsOfAnotherDoesNotStart) {
+  const services::contract::KeyRing ring, other;
+  const auto put = [](const fs::path& from, const fs::path& to) {
+    fs::copy_file(from, to, fs::copy_options::overwrite_existing);
+  };
+  const fs::path keys = ring.path();
+  put(keys / "services/arm_svc/fastdds.permissions.p7s", keys / "services/exec_svc/fastdds.permissions.p7s");
+  const Ended permissions = launch("--dds fastdds --secure=" + ring.path());
+  EXPECT_EQ(permissions.exit_code, 2);
+  EXPECT_THAT(permissions.output, HasSubstr("does not hold the permissions of exec_svc"));
+  put(other.path() + "/revoked.pem", keys / "revoked.pem");
+  const Ended revoked = launch("--dds cyclonedds --secure=" + ring.path());
+  EXPECT_EQ(revoked.exit_code, 2);
+  EXPECT_THAT(revoked.output, HasSubstr("revoked.pem is not from the authority"));
+}
+
 TEST(Keys, TheProgramMakesListsRenewsAndRevokes) {
   const services::contract::KeyRing other;  // its folder goes, and what stands beside it with it
   const std::string keys = " --keys " + other.path() + "-made 2>&1";

@@ -185,10 +185,12 @@ TEST_F(LaunchTest, ALiveRunGoesOnAsItWasStarted) {
 }
 
 TEST_F(LaunchTest, WhatCannotBeResumedIsRefusedInWords) {
-  const auto complaint = [&] {
-    const std::vector<const char*> pointers{"roci-launch", "--resume", folder.c_str()};
+  const auto complaint = [&](const std::vector<const char*>& more = {}) {
+    std::vector<const char*> pointers{"roci-launch", "--resume", folder.c_str()};
+    pointers.insert(pointers.end(), more.begin(), more.end());
     try {
-      parse_options(3, pointers.data(), [](const char*) { return std::nullopt; });
+      parse_options(static_cast<int>(pointers.size()), pointers.data(),
+                    [](const char*) { return std::nullopt; });
       return std::string();
     } catch (const std::invalid_argument& error) {
       return std::string(error.what());
@@ -202,8 +204,21 @@ TEST_F(LaunchTest, WhatCannotBeResumedIsRefusedInWords) {
   options.run_folder = folder;
   keep_command_line(options, clock::anchor_host(), 0);
   EXPECT_THAT(complaint(), HasSubstr("only runs with --clock live are resumed"));
-  std::ofstream(folder / "launch.json") << "{\"clock\": \"live\"}";
-  EXPECT_THAT(complaint(), HasSubstr("damaged"));
+  options = parse({"--clock", "live", "--dds", "cyclonedds"});
+  options.run_folder = folder;
+  keep_command_line(options, clock::anchor_host(), 0);
+  EXPECT_EQ(complaint({"--scenario", "nominal", "--seed", "1", "--speed", "3"}), "");
+  EXPECT_THAT(complaint({"--clock", "simulated"}), HasSubstr("started with --clock live, and cannot go on with"));
+  EXPECT_THAT(complaint({"--scenario", "other"}), HasSubstr("--scenario nominal"));
+  EXPECT_THAT(complaint({"--seed", "77"}), HasSubstr("--seed 1,"));
+  EXPECT_THAT(complaint({"--run", "another"}), HasSubstr("--run "));
+  EXPECT_THAT(complaint({"--become", "sim_svc"}), HasSubstr("--become"));
+  for (const char* damage :
+       {R"({"clock": "live"})", R"({"format": "x", "clock": "live"})", R"({"format": [1]})",
+        R"({"format": null})", R"({"format": 1, "clock": 5})", R"({"format": 1, "clock": "live", "arguments": 7})"}) {
+    std::ofstream(folder / "launch.json") << damage;
+    EXPECT_THAT(complaint(), HasSubstr("launch.json is damaged")) << damage;
+  }
   const FolderLock lock(folder);
   EXPECT_THROW(FolderLock{folder}, std::invalid_argument) << "its launcher lives";
 }
@@ -319,15 +334,36 @@ TEST_F(LaunchTest, RunningMissionsAreFound) {
   run.domain = 5;
   run.mission = "/missions/x";
   run.peers = {"127.0.0.1"};
-  process::RunRecord dead = run;
-  dead.pid = 1 << 30;  // beyond the largest process id
+  run.pid_started = process::start_of_process(getpid());
+  process::RunRecord dead = run, replaced = run;
+  dead.pid = 1 << 30;    // beyond the largest process id
+  replaced.pid = getppid();  // a process that is another one
+  ASSERT_NE(process::start_of_process(replaced.pid), run.pid_started);
   {
     const process::PublishedRun published(folder, run);
-    const process::PublishedRun of_the_dead(folder, dead);
+    const process::PublishedRun of_the_dead(folder, dead), of_a_number_used_again(folder, replaced);
     std::ofstream(folder / "run-7.json") << "{ half a rec";
     EXPECT_THAT(process::find_runs(folder), ElementsAre(run));
   }
   EXPECT_TRUE(process::find_runs(folder).empty());
+}
+
+TEST_F(LaunchTest, ARecordThatAKilledLauncherLeftGoesWithTheNextRun) {
+  fs::copy_file(ROCI_SOURCE_DIR "/tests/unit/services/golden/run-record-1.json", folder / "run-1.json");
+  auto record = nlohmann::json::parse(std::ifstream(folder / "run-1.json"));
+  record["pid"] = 1 << 30;
+  std::ofstream(folder / "run-2.json") << record;
+  record["pid"] = getppid();
+  record["pid_started"] = 1;
+  std::ofstream(folder / "run-3.json") << record;
+  record.erase("pid_started");
+  std::ofstream(folder / "run-4.json") << record;
+  process::RunRecord run;
+  run.pid = getpid();
+  const process::PublishedRun published(folder, run);
+  EXPECT_FALSE(fs::exists(folder / "run-2.json"));
+  EXPECT_FALSE(fs::exists(folder / "run-3.json"));
+  EXPECT_TRUE(fs::exists(folder / "run-4.json")) << "a process has its number, and it says no more";
 }
 
 TEST_F(LaunchTest, ARecordStatesItsFormatAndOneThatDoesNotIsOfTheFirst) {

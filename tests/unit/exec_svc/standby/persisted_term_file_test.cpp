@@ -51,6 +51,23 @@ TEST_F(PersistedTermFileTest, OneThatIsDamagedIsKeptAndItsMemberIsInDoubt) {
   EXPECT_TRUE(epochs.lead(next, newest, false)) << "it may have led since, and does not know";
 }
 
+TEST_F(PersistedTermFileTest, NoDamageOfOneCharacterIsTakenForAnotherTerm) {
+  PersistedTermFile(file, Durability::process).keep({107, true, 4});
+  std::string whole;
+  std::getline(std::ifstream(file), whole);
+  for (std::size_t at = 0; at < whole.size(); ++at) {
+    for (const char put : {'0', '1', '2', '7', ' ', '-'}) {
+      if (whole[at] == put) continue;
+      std::string damaged = whole;
+      damaged[at] = put;
+      std::ofstream(file) << damaged;
+      EXPECT_THROW(read(), JournalError) << damaged;
+    }
+    std::ofstream(file) << whole.substr(0, at);
+    EXPECT_THROW(read(), JournalError) << whole.substr(0, at);
+  }
+}
+
 TEST_F(PersistedTermFileTest, AFullDiskIsWaitedFor) {
   PersistedTermFile term(file, Durability::process);
   term.keep({1, false, 0});

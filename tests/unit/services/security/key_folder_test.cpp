@@ -111,6 +111,37 @@ TEST(KeyFolder, SomebodyElsesCertificateOrDocumentIsRefused) {
   EXPECT_THAT(refusal(ring.path(), "exec_svc"), HasSubstr("as a certificate"));
 }
 
+// All of these are signed by the right authority, or by one that is as good.
+TEST(KeyFolder, DocumentsInTheWrongPlaceAreRefused) {
+  const KeyRing ring, other;
+  const auto own = files_of(ring.path(), "exec_svc", "fastdds");
+  const auto put = [](const fs::path& from, const fs::path& to) {
+    fs::copy_file(from, to, fs::copy_options::overwrite_existing);
+  };
+  const fs::path kept = ring.path() + "/kept";
+  const auto refusal_with = [&](const fs::path& strange, const fs::path& place) {
+    put(place, kept);
+    put(strange, place);
+    const std::string text = refusal(ring.path(), "exec_svc");
+    put(kept, place);
+    return text;
+  };
+  for (const auto& [service, vendor] : {std::pair{"arm_svc", "fastdds"}, {"exec_svc", "cyclonedds"}})
+    EXPECT_THAT(refusal_with(files_of(ring.path(), service, vendor).permissions, own.permissions),
+                AllOf(HasSubstr(".permissions.p7s does not hold the permissions of exec_svc for fastdds"),
+                      HasSubstr("roci-keys make")));
+  EXPECT_THAT(refusal_with(own.governance, own.permissions), HasSubstr("does not hold the permissions"));
+  EXPECT_THAT(refusal_with(own.permissions, own.governance), HasSubstr("another document"));
+  EXPECT_THAT(refusal_with(files_of(other.path(), "", "").revoked, own.revoked),
+              AllOf(HasSubstr("revoked.pem is not from the authority"), HasSubstr("copy revoked.pem")));
+  const fs::path earlier = ring.path() + "/earlier";
+  put(own.permissions, earlier);
+  ring.authority().renew("exec_svc", 900, KeyRing::now_s());
+  put(earlier, own.permissions);
+  EXPECT_THAT(refusal(ring.path(), "exec_svc", KeyRing::now_s() + 500 * kDay),
+              HasSubstr("not as long as the certificate"));
+}
+
 TEST(KeyFolder, AProgramThatIsNotOursSaysWhatItMayDo) {
   const KeyRing ring;
   auto authority = ring.authority();
