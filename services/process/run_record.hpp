@@ -37,12 +37,12 @@ struct RunRecord {
 /// std::runtime_error where somebody else has made it.
 std::filesystem::path runtime_folder();
 
-/// Returns when a process began, in the kernel's ticks since the host's start (proc(5), starttime); 0 if it is not known.
-/// No two processes of a host have number and beginning in common.
+/// Returns when a process began, in the kernel's ticks since the host's start (proc(5), starttime); 0 if it is not
+/// known. No two processes of a host have number and beginning in common.
 std::uint64_t start_of_process(std::int64_t pid);
 
-/// Publishes the record of a run for as long as this object lives. Records of launchers that have ended without removing
-/// theirs are removed.
+/// Publishes the record of a run for as long as this object lives. Records of launchers that have ended without
+/// removing theirs are removed.
 class PublishedRun {
  public:
   PublishedRun(const std::filesystem::path& folder, const RunRecord&);

@@ -19,6 +19,7 @@
 #include "exec_svc/trace/recorded_trace.hpp"
 #include "exec_svc/trace/run_reader.hpp"
 #include "ground_console/cli/runs.hpp"
+#include "services/launch/continuation.hpp"
 #include "services/launch/summary.hpp"
 #include "services/process/incarnation.hpp"
 #include "services/process/link_report.hpp"
@@ -74,7 +75,7 @@ class FuzzRunFiles : public testing::Test {
         {"loco.calls",
          R"({"epoch":7,"open":{"activity":"exec/1/p1.2-a/3","attempt":1,"commander":"loco","epoch":7,"owner":"sim_svc"}})",
          [](const fs::path& folder) { dedicated::CallRecord(folder / "loco.calls").open(); }},
-        {"first.term", "12 1\n",
+        {"first.term", "12 1 0 2479074010\n",
          [](const fs::path& folder) {
            exec::standby::PersistedTermFile(folder / "first.term", exec::journal::Durability::process).read();
          }},
@@ -86,6 +87,15 @@ class FuzzRunFiles : public testing::Test {
          R"({"at_us":5,"robots":{"rover":{"pose":[1,2,0],"energy_j":3e5,"images":{"a":{"robot":"rover","source":"b","bytes":9,)"
          R"("sent":false,"taken_us":4,"taken_from":[1,2,0],"preview":[1,2]}},"components":{"arm":{"held":true}}}},"samples":{"s":"a"}})",
          [](const fs::path& folder) { sim::WorldFile(folder / "sim_svc.world").read(); }},
+        {"launch.json",
+         R"({"format":1,"clock":"live","arguments":["/m","--seed","1"],"epoch_unix_us":5,"anchor":"","launchers":1})",
+         [](const fs::path& folder) {
+           const std::vector<const char*> line{"roci-launch", "--resume", folder.c_str()};
+           try {
+             services::launch::continued_command_line(static_cast<int>(line.size()), line.data());
+           } catch (const std::invalid_argument&) {
+           }
+         }},
         {"expected.json", R"({"events":3,"met":true,"fault":""})",
          [](const fs::path& folder) {
            services::launch::Options options;
@@ -101,7 +111,8 @@ class FuzzRunFiles : public testing::Test {
   std::mt19937_64 random_{1};
 };
 
-// A refusal is an error in words (std::runtime_error), which the programs print; anything else would end them.
+// A refusal is an error in words (std::runtime_error, or std::invalid_argument of a command line), which the programs
+// print; anything else would end them.
 TEST_F(FuzzRunFiles, AreReadOrRefused) {
   for (const Reader& reader : readers()) {
     const fs::path file = folder_ / reader.file;
