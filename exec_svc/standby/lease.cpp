@@ -9,8 +9,6 @@ using journal::Position;
 
 namespace {
 
-constexpr int kRenewalsSeen = 3;  // may pass before a leader counts as one that does not renew
-
 std::string milliseconds_text(Moment time) {
   return std::to_string(std::chrono::duration_cast<std::chrono::milliseconds>(time).count()) + " ms";
 }

@@ -80,12 +80,14 @@ class Lease {
   /// objects that show the same behave alike from now on.
   template <class See>
   void show(See&& see, Moment now) const {
+    const bool leads = role_ == Role::leading;
     see(role_, now - spoke_at_, settled_);
     epochs_.show(see);
     peer_.show(see, now);
-    owner_leases_.show(see, now);
-    see(request_.epoch, request_.wanted, unleased_since_ ? now - *unleased_since_ : Moment(-1));
-    right_.show(see, now);
+    owner_leases_.show(see, leads ? Moment(-1) : kRenewalsSeen * settings_.renewal, now);
+    see(request_.epoch, request_.wanted);
+    if (!leads) return right_.show(see, now);
+    see(unleased_since_ ? now - *unleased_since_ : Moment(-1));
     replication_.show(see, now);
   }
 
@@ -100,6 +102,8 @@ class Lease {
   std::uint64_t epoch() const { return epochs_.highest(); }
 
  private:
+  static constexpr int kRenewalsSeen = 3;  // may pass before a leader counts as one that does not renew
+
   /// Says why a follower would lead, and what that takes.
   struct Claim {
     std::string reason;

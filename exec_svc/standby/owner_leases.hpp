@@ -69,17 +69,20 @@ class OwnerLeases {
   /// Names the owners whose lease is missing, in plain words.
   std::string missing(std::uint64_t epoch, Moment now) const;
 
-  /// Shows everything that decides what this object does next, as Lease::show().
+  /// Shows everything that decides what this object does next, as Lease::show(), to who asks other_renews() for times
+  /// up to `renewed_within`.
   template <class See>
-  void show(See&& see, Moment now) const {
+  void show(See&& see, Moment renewed_within, Moment now) const {
     for (const auto& [owner, heard] : heard_) {
       const LeaseReport& report = heard.report;
       see(owner, report.holder.has_value(), report.holder.value_or(Member::first), report.epoch,
           report.newest_epoch);
-      see(now - heard.at, report.holder == self_ ? now - report.echo : Moment{0}, report.term);
+      see(std::min(now - heard.at, std::max(patience_, report.term) + Moment(1)), report.term,
+          report.holder == self_ ? std::min(now - report.echo, report.term) : Moment(0));
     }
     see(partial_since_ ? now - *partial_since_ : Moment(-1),
-        silent_until_ ? *silent_until_ - now : Moment(-1), now - other_renewed_at_);
+        silent_until_ ? *silent_until_ - now : Moment(-1));
+    see(std::min(now - other_renewed_at_, renewed_within + Moment(1)));
   }
 
  private:

@@ -1,6 +1,7 @@
 // The peer is the other member of a pair, as it was heard last. It is pure.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 
 #include "exec_svc/journal/batch.hpp"
@@ -37,8 +38,10 @@ class Peer {
     see(heard_.has_value());
     if (!heard_) return;
     const LeaseMessage& said = heard_->message;
-    see(said.role, said.epoch, said.has.epoch, said.has.sequence, said.entitled, said.searching);
-    see(now - heard_->at, now - said.echo, said.echo < started_);
+    see(said.role, said.epoch, said.has, said.entitled, said.searching);
+    const auto since = sent_since();
+    // No right holds for two terms, so what echoes an older message gives none.
+    see(std::min(now - heard_->at, 2 * term_), since ? std::min(now - *since, term_) : term_);
   }
 
  private:

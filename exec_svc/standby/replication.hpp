@@ -43,8 +43,10 @@ class Replication {
 
   template <class See>
   void show(See&& see, Moment now) const {
-    see(state_, now - entitled_at_, most_.epoch, most_.sequence, now - behind_since_, behind_);
-    see(progress_.epoch, progress_.sequence, joined_at_.epoch, joined_at_.sequence);
+    see(state_, most_, behind_);
+    if (behind_) see(progress_, std::min(now - behind_since_, settings_.progress_timeout + Moment(1)));
+    if (state_ == State::catching_up) see(joined_at_);
+    if (state_ == State::paired || state_ == State::revoking) see(now - entitled_at_);
   }
 
  private:

@@ -41,7 +41,9 @@ class TakeoverRight {
 
   template <class See>
   void show(See&& see, Moment now) const {
-    see(forbidden_, entitled_, receipt_.epoch, receipt_.sequence, now - since_, now - leaderless_since_);
+    const bool in_time = entitled_ && now - since_ < valid_for_;
+    see(forbidden_, in_time, now - leaderless_since_);
+    if (in_time) see(receipt_, now - since_);
   }
 
  private:

@@ -6,18 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "tests/unit/exec_svc/standby/pair_world.hpp"
+#include "tests/unit/exec_svc/standby/pair_events.hpp"
 
 namespace roci::exec::testing {
-
-// How much may happen. In between all may rest for as long as it likes.
-struct Bounds {
-  int goals = 2;
-  int recalls = 1;
-  int cuts = 2;
-  int kills = 2;
-  int pace = 1;  // steps of half a second from one event to the next at least; all else happens in every step
-};
 
 struct Exploration {
   std::size_t states = 0;  // that differ

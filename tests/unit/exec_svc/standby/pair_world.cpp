@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <type_traits>
 #include <utility>
 
 #include "exec_svc/goals/goal_merge.hpp"
@@ -46,7 +45,7 @@ int number_of(const GoalRecord& goal) { return std::stoi(goal.request.key.id); }
 }  // namespace
 
 void Disk::write(Line line) {
-  if (line.goal) goals[number_of(*line.goal)] = *line.goal;
+  if (line.goal) goals[line.number] = *line.goal;
   lines.push_back(std::move(line));
 }
 
@@ -273,24 +272,26 @@ void PairWorld::lead(Member member, bool doubtful) {
   process.commanded.clear();
   process.unsent.clear();
   for (const Line& line : process.disk.lines) {
-    if (line.text == "lead anew") {  // what was commanded before was forgotten
+    if (line.word == Word::lead_in_doubt) {  // what was commanded before was forgotten
       process.commanded.clear();
       process.unsent.clear();
     }
-    if (!line.is("command") || doubtful) continue;
-    process.commanded.insert(line.number());
-    if (!is_final(process.disk.goals.at(line.number()).state)) process.unsent.push_back(line);
+    if (line.word != Word::command || doubtful) continue;
+    process.commanded.insert(line.number);
+    if (!is_final(process.disk.goals.at(line.number).state)) process.unsent.push_back(line);
   }
-  commit(process, doubtful ? "lead anew" : "lead");
+  commit(process, doubtful ? Word::lead_in_doubt : Word::lead);
   for (const auto& [number, goal] : process.disk.goals)  // the ground is told where it all stands
-    process.unsent.push_back({process.disk.newest(), "status " + std::to_string(number), goal});
+    process.unsent.push_back(
+        {process.disk.newest(), Word::status, number, std::make_shared<GoalRecord>(goal)});
   for (const auto& [number, goal] : std::exchange(process.disk.apart, {})) merge(process, goal);
 }
 
-void PairWorld::commit(Process& process, const std::string& text, std::optional<GoalRecord> goal) {
+void PairWorld::commit(Process& process, Word word, int number, const std::optional<GoalRecord>& goal) {
   const Position at{process.leads_in, process.disk.newest().sequence + 1};
-  process.disk.write({at, text, goal});
-  process.unsent.push_back({at, text, std::move(goal)});
+  const Line line{at, word, number, goal ? std::make_shared<GoalRecord>(*goal) : nullptr};
+  process.disk.write(line);
+  process.unsent.push_back(line);
 }
 
 void PairWorld::merge(Process& process, const GoalRecord& theirs) {
@@ -305,7 +306,7 @@ void PairWorld::merge(Process& process, const GoalRecord& theirs) {
     if (!both) return;
     record = *both;
   }
-  commit(process, "merge " + std::to_string(number), record);
+  commit(process, Word::merge, number, record);
 }
 
 // Who leads because the last leader said that it may has all that an owner ever carried out in that one's epochs.
@@ -326,14 +327,13 @@ void PairWorld::hear_ground(Member member) {
   for (const Wish& wish : wishes_) {
     const auto known = process.disk.goals.find(wish.goal);
     const bool is_new = known == process.disk.goals.end();
-    const std::string text = wish.what + " " + std::to_string(wish.goal);
-    if (wish.what == "goal") {
-      if (is_new) commit(process, text, new_goal(wish.goal));
+    if (wish.what == Word::goal) {
+      if (is_new) commit(process, Word::goal, wish.goal, new_goal(wish.goal));
       continue;
     }
     if (is_new) continue;
     GoalRecord record = known->second;
-    if (wish.what == "recall") {
+    if (wish.what == Word::recall) {
       if (record.request.recalled) continue;
       record.request.recalled = true;
       ++record.revision;
@@ -343,27 +343,27 @@ void PairWorld::hear_ground(Member member) {
       record.request.priority = wish.goal;
       ++record.revision;
     }
-    commit(process, text, record);
+    commit(process, wish.what, wish.goal, record);
   }
 }
 
 void PairWorld::work(Member member) {
   Process& process = at(member);
-  std::vector<Line> decided;
+  std::vector<std::pair<int, std::optional<GoalRecord>>> decided;  // a record: done
   for (const auto& [number, goal] : process.disk.goals) {
     if (is_final(goal.state)) continue;
-    const std::string name = " " + std::to_string(number);
     if (effects(number) > 0 && reaches(member, owner_of(number))) {
       GoalRecord done = goal;
       done.state = GoalState::achieved;
-      decided.push_back({{}, "done" + name, done});
+      decided.emplace_back(number, done);
     } else if (!process.commanded.contains(number) && reaches(member, owner_of(number)) &&
                (eager_ || random_() % 50 == 0)) {
       process.commanded.insert(number);
-      decided.push_back({{}, "command" + name});
+      decided.emplace_back(number, std::nullopt);
     }
   }
-  for (Line& line : decided) commit(process, line.text, std::move(line.goal));
+  for (const auto& [number, done] : decided)
+    commit(process, done ? Word::done : Word::command, number, done);
 }
 
 void PairWorld::feed(Member member) {
@@ -409,9 +409,9 @@ void PairWorld::send_unsent(Member member) {
   }
   while (!process.unsent.empty()) {
     const Line line = process.unsent.front();
-    const bool early = bug_ == Bug::acknowledges_early && !line.is("command");
+    const bool early = bug_ == Bug::acknowledges_early && line.word != Word::command;
     if (!early && !process.lease->may_send(line.at, now)) return;
-    if (line.is("command") && !process.lease->may_command(now)) {
+    if (line.word == Word::command && !process.lease->may_command(now)) {
       const auto since = process.lease->unleased_since();
       if (!since || now - *since < settings_.term) return;
       process.unsent.pop_front();
@@ -419,7 +419,7 @@ void PairWorld::send_unsent(Member member) {
       continue;
     }
     process.unsent.pop_front();
-    if (line.is("command") && std::exchange(process.stops_before_sending, false)) {
+    if (line.word == Word::command && std::exchange(process.stops_before_sending, false)) {
       process.paused = true;
       process.late = line;
       return;
@@ -430,15 +430,15 @@ void PairWorld::send_unsent(Member member) {
 
 void PairWorld::send(Member member, const Line& line) {
   Process& process = at(member);
-  if (line.is("command")) return command(member, line);
+  if (line.word == Word::command) return command(member, line);
   if (line.goal && line.goal->request.recalled)  // by the ground or by the other executive
-    std::erase_if(process.waiting, [&](const Line& other) { return other.number() == line.number(); });
+    std::erase_if(process.waiting, [&](const Line& other) { return other.number == line.number; });
   if (line.goal) acknowledge(member, line);
 }
 
 void PairWorld::acknowledge(Member member, const Line& line) {
   if (network.ground_cut[index(member)]) return;
-  const int number = number_of(*line.goal);
+  const int number = line.number;
   Process& process = at(member);
   const bool held = process.lease->held_by_both(line.at) || bug_ == Bug::acknowledges_early;
   if (!held) process.told_alone = line.at;
@@ -449,14 +449,14 @@ void PairWorld::acknowledge(Member member, const Line& line) {
              (line.goal->request.recalled && held) || known.recall_held, held, member};
   std::erase_if(wishes_, [&](const Wish& wish) {
     if (wish.goal != number) return false;
-    if (wish.what == "goal") return true;
-    return wish.what == "recall" ? line.goal->request.recalled
+    if (wish.what == Word::goal) return true;
+    return wish.what == Word::recall ? line.goal->request.recalled
                                  : line.goal->request.priority >= wish.goal || is_final(line.goal->state);
   });
 }
 
 void PairWorld::command(Member member, const Line& line) {
-  const int goal = line.number();
+  const int goal = line.number;
   Owner& owner = owners_[owner_of(goal)];
   if (!reaches(member, owner_of(goal))) return;
   const std::uint64_t epoch = at(member).lease->epoch();
@@ -511,80 +511,6 @@ std::vector<std::string> PairWorld::lost() const {
     // Of a goal that was achieved before it was recalled the leader's wish counts (goal_merge.hpp).
     const bool ended = record.state == GoalState::recalled || record.state == GoalState::achieved;
     if (one.recalled && !ended) out.push_back("the recall of " + name);
-  }
-  return out;
-}
-
-std::string PairWorld::fingerprint(Moment oldest) const {
-  std::string out;
-  const auto append = [&](const auto& value) {
-    using T = std::decay_t<decltype(value)>;
-    if constexpr (std::is_same_v<T, Moment>) {
-      out += std::to_string(std::min(value, oldest).count());
-    } else if constexpr (std::is_same_v<T, Position>) {
-      out += std::to_string(value.epoch) + ':' + std::to_string(value.sequence);
-    } else if constexpr (std::is_enum_v<T>) {
-      out += std::to_string(static_cast<int>(value));
-    } else if constexpr (std::is_arithmetic_v<T>) {
-      out += std::to_string(value);
-    } else {
-      out += value;
-    }
-    out += ' ';
-  };
-  const auto see = [&](const auto&... values) { (append(values), ...); };
-  const auto see_line = [&](const Line& line) { see(line.at, line.text); };
-  const auto see_goal = [&](int number, const GoalRecord& goal) {
-    see(number, goal.state, goal.revision, goal.request.recalled, goal.request.priority);
-  };
-  for (const Member member : {Member::first, Member::second}) {
-    const Process& process = members_[index(member)];
-    const auto& term = process.disk.persisted_term;
-    see("|", term.epoch, term.alone, term.holds);
-    for (const Line& line : process.disk.lines) see_line(line);
-    for (const auto& [number, goal] : process.disk.goals) see_goal(number, goal);
-    see("/");
-    for (const auto& [number, goal] : process.disk.apart) see_goal(number, goal);
-    see(process.lease ? "lives" : "dead");
-    if (!process.lease) continue;
-    process.lease->show(see, clock(member));
-    for (const Line& line : process.unsent) see_line(line);
-    see("/");
-    for (const Line& line : process.waiting) see_line(line);
-    for (const int goal : process.commanded) see(goal);
-    if (process.other) see(process.other->has, process.other->role);
-    see(process.fed, process.told_alone.has_value(), process.told_alone.value_or(Position{}));
-  }
-  for (const Owner& owner : owners_) {
-    see("|", owner.epoch);
-    owner.leases.show(see, owner_clock());
-    for (const Position& done : owner.done) see(done);
-  }
-  see("|", network.cut);
-  for (const auto& links : network.owner_cut)
-    for (const bool link : links) see(link);
-  for (const bool link : network.ground_cut) see(link);
-  for (const Wish& wish : wishes_) see(wish.what, wish.goal);
-  for (const auto& [goal, one] : acknowledged_)
-    see(goal, one.revision, one.recalled, one.recall_held, one.held, one.by);
-  for (const auto& [goal, count] : effects_) see(goal, count);
-  for (const Message& message : under_way_) {
-    see("|", message.to, message.to_owner, message.leader, message.after, message.whole);
-    if (const auto& said = message.message) {
-      see(said->member, said->role, said->epoch, said->has, said->entitled, said->receipt, said->searching,
-          clock(said->member) - said->said, clock(other(said->member)) - said->echo);
-    }
-    if (const auto& report = message.report) {
-      const Member holder = report->holder.value_or(Member::first);
-      see(report->owner, report->holder.has_value(), holder, report->epoch, report->newest_epoch,
-          clock(holder) - report->echo, report->term);
-    }
-    if (const auto& asked = message.request) {
-      see(asked->member, asked->epoch, asked->wanted, asked->leads, asked->term,
-          clock(asked->member) - asked->said);
-    }
-    for (const Line& line : message.lines) see_line(line);
-    if (message.handed_over) see_goal(number_of(*message.handed_over), *message.handed_over);
   }
   return out;
 }

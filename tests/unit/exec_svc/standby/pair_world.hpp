@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <deque>
 #include <map>
+#include <memory>
 #include <optional>
 #include <random>
 #include <set>
@@ -19,14 +20,14 @@
 
 namespace roci::exec::testing {
 
-// A commit of a journal: what it says, and the goal's record that it writes.
+enum class Word : std::uint8_t { goal, recall, change, merge, done, command, status, lead, lead_in_doubt };
+
+// A commit of a journal: what it says of which goal, and the goal's record that it writes.
 struct Line {
   journal::Position at;
-  std::string
-      text;  // "goal 7", "recall 7", "change 7", "merge 7", "done 7", "command 7", "lead" or (in doubt) "lead anew"
-  std::optional<goals::GoalRecord> goal{};
-  int number() const { return std::stoi(text.substr(text.find(' ') + 1)); }
-  bool is(const char* what) const { return text.starts_with(std::string(what) + " "); }
+  Word word;
+  int number = 0;
+  std::shared_ptr<const goals::GoalRecord> goal{};
 };
 
 // What survives the death of a member.
@@ -70,8 +71,8 @@ class PairWorld {
     eager_ = true;
     step_ = step;
   }
-  // Two worlds that say the same go on alike; times count as ages up to `oldest`.
-  std::string fingerprint(standby::Moment oldest) const;
+  // Worlds with one fingerprint go on alike; times count as ages up to `oldest` (pair_fingerprint.cpp).
+  std::uint64_t fingerprint(standby::Moment oldest) const;
 
   Network network;
   void kill(standby::Member member);
@@ -85,9 +86,9 @@ class PairWorld {
   void restart_owner(int owner) { owners_[owner].leases = {}; }
   void drop_messages() { under_way_.clear(); }
   // The ground asks until somebody acknowledges.
-  void ask_for_a_goal() { wishes_.push_back({"goal", ++goals_}); }
-  void recall(int goal) { wishes_.push_back({"recall", goal}); }
-  void change(int goal) { wishes_.push_back({"change", goal}); }
+  void ask_for_a_goal() { wishes_.push_back({Word::goal, ++goals_}); }
+  void recall(int goal) { wishes_.push_back({Word::recall, goal}); }
+  void change(int goal) { wishes_.push_back({Word::change, goal}); }
   // It is paused between looking at its lease and sending a command, the next time; resumed, it sends first.
   void stop_before_sending(standby::Member member) { at(member).stops_before_sending = true; }
 
@@ -157,7 +158,7 @@ class PairWorld {
     std::optional<standby::OwnerRequest> request{};
   };
   struct Wish {
-    std::string what;
+    Word what;
     int goal;
   };
   // What the ground was told of a goal.
@@ -191,13 +192,15 @@ class PairWorld {
   void feed(standby::Member member);
   void check_right(const Process& process);
   void check_dispatchers();
-  void commit(Process& process, const std::string& text, std::optional<goals::GoalRecord> goal = {});
+  void commit(Process& process, Word word, int number = 0,
+              const std::optional<goals::GoalRecord>& goal = {});
   void merge(Process& process, const goals::GoalRecord& theirs);
   void send_unsent(standby::Member member);
   void send(standby::Member member, const Line& decision);
   void command(standby::Member member, const Line& decision);
   void acknowledge(standby::Member member, const Line& line);
   void post(Message message, bool cut);
+  std::size_t common_lines() const;
 
   std::minstd_rand random_;
   bool eager_ = false;
