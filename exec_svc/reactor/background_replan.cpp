@@ -96,7 +96,17 @@ void BackgroundReplan::step(Time now, const ReactorInputs& inputs) {
 bool BackgroundReplan::possible() const {
   return parts_.state.phase == MissionPhase::executing && !parts_.plan.invalid() &&
          parts_.plan.outcome().kind == OutcomeKind::running && !parts_.plan.executive().running().empty() &&
-         !parts_.state.goals.open().empty();
+         !parts_.state.goals.open().empty() && !may_begin_after_recall();
+}
+
+/// Returns whether a command of this plan, which served a recalled goal, may still wait to be sent.
+bool BackgroundReplan::may_begin_after_recall() const {
+  const auto served = [this](const GoalRecord* record) {
+    return record->state == GoalState::recalled && record->plan_version == parts_.plan.version();
+  };
+  return std::ranges::any_of(parts_.plan.executive().running(), [](const StepStatus& step) {
+           return step.state == temporal::ActivityState::dispatched;
+         }) && std::ranges::any_of(parts_.state.goals.all(), served);
 }
 
 void BackgroundReplan::grant(Time now) {

@@ -29,6 +29,7 @@ class BackgroundReplan final : public ReplanningPolicy {
   };
 
   bool possible() const;
+  bool may_begin_after_recall() const;
   void grant(temporal::Time now);
   void call_planner(temporal::Time now);
   void proceed(temporal::Time now);

@@ -159,6 +159,24 @@ TEST_F(BackgroundReplanning, NoHardGoalIsGivenUpForWhatRuns) {
   EXPECT_THAT(trace, Contains("cancel"));
 }
 
+// A command that no owner has answered may wait for leases still, and would begin after its recall was acknowledged.
+TEST_F(BackgroundReplanning, WhatARecalledGoalHasCommandedAndNobodyAnsweredIsCancelled) {
+  planning_time = seconds(0);
+  robot_is_dead = true;
+  other_events.emplace(seconds(6), [this] {
+    robot_is_dead = false;
+    GoalRequest recall = photo("1");
+    recall.recalled = true;
+    pending.goals.push_back(recall);
+  });
+  run(6.5, robot_and({photo("1"), photo("2")}));
+  ASSERT_EQ(commands.size(), 2U);
+  EXPECT_EQ(commands[1].action, executive::CommandAction::cancel);
+  EXPECT_EQ(commands[1].activity, commands[0].activity);
+  run(1000, {});
+  EXPECT_EQ(reactor.outcome(), "achieved");
+}
+
 TEST_F(BackgroundReplanning, WhatFailsMeanwhileLeadsToThePause) {
   planning_time = seconds(60);
   send(70, photo("2"));
