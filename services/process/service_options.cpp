@@ -48,8 +48,10 @@ void add_connection(CLI::App& app, ConnectionFlags& flags) {
 }
 
 void add_clock(CLI::App& app, node::NodeOptions& node, std::string& roster, double& epoch_s) {
-  app.add_option("--clock", node.clock, "live, simulated, master or observer")
-      ->transform(CLI::CheckedTransformer(kClockNames))
+  app.add_option_function<std::string>(
+         "--clock", [&node](const std::string& word) { node.clock = kClockNames.at(word); },
+         "Which clock drives the service")
+      ->check(CLI::IsMember(kClockNames))
       ->default_str("live");
   app.add_option("--scale", node.live_scale, "Live clock: mission seconds per wall second")
       ->check(CLI::PositiveNumber)

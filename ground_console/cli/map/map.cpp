@@ -224,8 +224,11 @@ void write_map(const std::string& file, const MissionMap& map, bool as_json) {
     told["height"] = picture.height();
     std::cout << json_text(told) << "\n";
   } else {
+    const auto counted = [](std::size_t count, const std::string& what) {
+      return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
+    };
     std::cout << file << ": " << picture.width() << " x " << picture.height() << " pixels, "
-              << map.places.size() << " places, " << map.hazards.size() << " hazards\n";
+              << counted(map.places.size(), "place") << ", " << counted(map.hazards.size(), "hazard") << "\n";
   }
 }
 

@@ -27,12 +27,15 @@ int run_command_line(int argc, char** argv) {
     return out;
   };
   const auto planning = [&](CLI::App* out) {
-    const std::map<std::string, search::Heuristic> heuristics{
+    static const std::map<std::string, search::Heuristic> heuristics{
         {"blind", search::Heuristic::blind},
         {"relaxed_plan", search::Heuristic::relaxed_plan},
         {"landmarks", search::Heuristic::landmarks}};
-    out->add_option("--heuristic", options.resolvers.front().heuristic, "blind, relaxed_plan or landmarks")
-        ->transform(CLI::CheckedTransformer(heuristics));
+    out->add_option_function<std::string>(
+           "--heuristic",
+           [&options](const std::string& word) { options.resolvers.front().heuristic = heuristics.at(word); },
+           "by which the search orders its choices")
+        ->check(CLI::IsMember(heuristics));
     out->add_option(
            "--resolvers", resolvers,
            "heuristics that search side by side, the plan of the one with the least work counts; with "
