@@ -1,6 +1,7 @@
 #include "core/pddl/settle.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <optional>
 #include <set>
@@ -131,6 +132,34 @@ void settle_values(Problem& problem, Known& known, DiagnosticLog& log) {
   });
 }
 
+struct SameFluent {
+  bool operator()(const InitialValue* a, const InitialValue* b) const {
+    return a->fluent.symbol == b->fluent.symbol &&
+           std::ranges::equal(a->fluent.arguments, b->fluent.arguments, {}, &Term::name, &Term::name);
+  }
+};
+struct HashOfFluent {
+  std::size_t operator()(const InitialValue* initial) const {
+    std::size_t out = std::hash<std::string>()(initial->fluent.symbol);
+    for (const Term& term : initial->fluent.arguments)
+      out = out * 31 + std::hash<std::string>()(term.name);
+    return out;
+  }
+};
+
+void warn_of_values(const std::vector<InitialValue>& values, DiagnosticLog& log) {
+  std::unordered_map<const InitialValue*, double, HashOfFluent, SameFluent> seen;
+  seen.reserve(values.size());
+  for (const InitialValue& initial : values) {
+    const auto [first, is_new] = seen.emplace(&initial, initial.value);
+    if (is_new || std::exchange(first->second, initial.value) == initial.value) continue;
+    log.warn(Departure::value_twice, initial.fluent.where,
+             print(initial.fluent) + " has another initial value since line " +
+                 std::to_string(first->first->fluent.where.line) + "; this one holds",
+             "keep one");
+  }
+}
+
 void warn_of_requirements(const std::map<std::string, SourceLocation>& lacking, DiagnosticLog& log) {
   for (const auto& [flag, where] : lacking) {
     log.warn(Departure::missing_requirement, where,
@@ -164,6 +193,7 @@ void settle(Problem& problem, const Domain& domain, DiagnosticLog& log) {
   Known known(domain);
   settle_object_types(problem, known, log);
   settle_values(problem, known, log);
+  warn_of_values(problem.values, log);
   rename_hiding_variables(problem, log);
   if (log.errors() == 0) warn_of_requirements(lacking_requirements(problem, domain), log);
 }

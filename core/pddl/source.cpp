@@ -57,6 +57,8 @@ const char* to_string(Departure departure) {
       return "signature-twice";
     case Departure::object_twice:
       return "object-twice";
+    case Departure::value_twice:
+      return "value-twice";
     case Departure::hidden_variable:
       return "hidden-variable";
     case Departure::missing_goal:

@@ -44,6 +44,7 @@ enum class Departure {
   undeclared_function,
   signature_twice,
   object_twice,
+  value_twice,
   hidden_variable,
   missing_goal,
   domain_name

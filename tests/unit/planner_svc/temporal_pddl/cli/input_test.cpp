@@ -41,7 +41,7 @@ TEST_F(RociPlanInput, ReadsEachDepartureWithAWarningAndRefusesItIfStrict) {
        {"byte-order-mark", "odd-character", "comma", "question-mark", "hyphen", "outside-text",
         "requirement-flag", "missing-requirement", "old-section", "number-type", "type-twice",
         "type-under-itself", "undeclared-type", "undeclared-function", "signature-twice", "object-twice",
-        "hidden-variable", "missing-goal", "domain-name"}) {
+        "value-twice", "hidden-variable", "missing-goal", "domain-name"}) {
     SCOPED_TRACE(name);
     EXPECT_EQ(run_departure(name, ""), 0) << read("err");
     EXPECT_THAT(read("err"),
