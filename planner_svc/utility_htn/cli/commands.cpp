@@ -70,7 +70,9 @@ WhatIf what_if(const Network& network, const std::vector<std::string>& changes) 
     const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     const bool is_number = !text.empty() && error == std::errc{} && rest == text.data() + text.size();
     if (timeline == network.timelines.end()) {
-      if (!is_number) throw std::invalid_argument("'" + change + "' is not NAME=NUMBER");
+      const bool known = std::ranges::find(network.parameters, name, &model::Parameter::name) !=
+                         network.parameters.end();
+      if (!is_number && known) throw std::invalid_argument("'" + change + "' is not NAME=NUMBER");
       out.values[name] = value;
       continue;
     }

@@ -80,6 +80,7 @@ TEST_F(RociNetwork, ExplainRefusesWhatTheNetworkDoesNotHave) {
       {"dig_s_far=9000000", "'dig_s_far' is 9e+06, and goes from 60 to 7200"},
       {"dig_s_far", "'dig_s_far' is not NAME=NUMBER"},
       {"dig=1", "the network has no parameter 'dig'"},
+      {"dig=open", "the network has no parameter 'dig'"},
       {"lander.battery=-1", "'lander.battery' would begin with -1"},
       {"lander.lamp=green", "'lander.lamp=green' is no value of the timeline 'lander.lamp'"}};
   for (const auto& [change, words] : wrong) {
