@@ -67,6 +67,8 @@ struct Downlinks {
   std::map<std::uint32_t, double> sol_energy_j{};
   /// Names products of steps that are there already although the step is not known to be over: nothing promises them.
   std::set<std::pair<std::uint64_t, std::string>> generated{};
+  /// Names steps that stood in the plan before: their data may have lost their downlink since, with a reason told.
+  std::set<std::uint64_t> kept{};
 };
 
 /// Holds a value of a timeline that was observed.

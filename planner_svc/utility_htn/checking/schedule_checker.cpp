@@ -4,7 +4,6 @@
 #include <set>
 #include <utility>
 
-#include "core/temporal/plan_delta.hpp"
 #include "planner_svc/utility_htn/checking/course.hpp"
 #include "planner_svc/utility_htn/checking/parts.hpp"
 #include "planner_svc/utility_htn/checking/version.hpp"
@@ -22,7 +21,17 @@ class Reading {
           Faults& out)
       : question_(question), on_board_(on_board), plan_is_new_(plan_is_new), out_(out) {
     for (const Block& block : question.plan)
-      for (const Step& step : block.steps) add(block, step);
+      for (const Step& step : block.steps) add(block.request, step);
+  }
+
+  // What has begun of a chain that was broken off still generates and sends.
+  void add(model::TaskIndex request, const Step& step) {
+    const model::Task& task = question_.network.tasks[step.task];
+    if (task.downlinks) downlinks_[step.id] = &step;
+    if (end_of(question_, step) <= question_.now && !step.due) return;
+    for (const model::Product& product : task.products)
+      promised_[question_.network.tasks[request].id + "/" + task.id + "/" + product.name].push_back(
+          {&step, product.name});
   }
 
   void read(const engine::DownlinkSchedule& schedule) {
@@ -48,16 +57,6 @@ class Reading {
   }
 
  private:
-  // Products of one name stand in the schedule with numbers; which is whose does not matter.
-  void add(const Block& block, const Step& step) {
-    const model::Task& task = question_.network.tasks[step.task];
-    if (task.downlinks) downlinks_[step.id] = &step;
-    if (end_of(question_, step) <= question_.now && !step.due) return;
-    for (const model::Product& product : task.products)
-      promised_[question_.network.tasks[block.request].id + "/" + task.id + "/" + product.name].push_back(
-          {&step, product.name});
-  }
-
   void read(const engine::ScheduledDownlink& told) {
     const auto id = step_named(told.activity);
     const auto found = id ? downlinks_.find(*id) : downlinks_.end();
@@ -118,6 +117,7 @@ class Reading {
       out_.push_back("product '" + told.id + "' has another size or tier than its owner says");
   }
 
+  // Products of one name stand in the schedule with numbers; which is whose does not matter.
   void read_promised(const engine::ScheduledProduct& told, Product& product) {
     const auto blank = told.id.rfind(' ');
     auto found = promised_.find(told.id);
@@ -132,6 +132,10 @@ class Reading {
     product.step = promise.step->id;
     product.name = promise.name;
     product.created = end_of(question_, *promise.step);
+    if (!promise.step->due) return;
+    // Of what is late the engine alone knows when it expects the end.
+    product.created = product.window ? std::max(product.created, question_.downlinks.windows[*product.window].start)
+                                     : temporal::no_bound;
   }
 
   struct Promise {
@@ -148,6 +152,13 @@ class Reading {
   std::set<std::uint64_t> told_;
 };
 
+// Numbers of broken chains and their requests stand in one order.
+model::TaskIndex request_of(const Version& version, const Step& step) {
+  const auto number = static_cast<std::uint32_t>(step.id >> 32U);
+  const auto at = std::distance(version.broken.begin(), version.broken.find(number));
+  return version.broken_off[static_cast<std::size_t>(at)];
+}
+
 }  // namespace
 
 std::vector<std::string> ScheduleChecker::faults(const model::Network& network,
@@ -155,8 +166,14 @@ std::vector<std::string> ScheduleChecker::faults(const model::Network& network,
                                                  const engine::StepOutput& output) {
   hear(inputs);
   Faults out;
+  std::set<std::uint64_t> kept;
+  for (const temporal::PlanActivity& activity : plan_.activities)
+    if (const auto step = step_named(activity.id)) kept.insert(*step);
   if (output.delta) {
-    if (std::string fault = temporal::apply(*output.delta, plan_); !fault.empty()) return {fault};
+    temporal::FlexiblePlan next;
+    if (std::string fault = history_.apply(*output.delta, next); !fault.empty()) return {fault};
+    plan_ = next;
+    history_.keep(std::move(next));
   }
   if (output.schedule) schedule_ = output.schedule;
   if ((!output.delta && !output.schedule) || !schedule_ || !schedule_->limited) return {};
@@ -166,16 +183,22 @@ std::vector<std::string> ScheduleChecker::faults(const model::Network& network,
   Question question{.network = network, .values = version.values, .plan = std::move(version.blocks)};
   question.now = inputs.now;
   question.downlinks.generated = generated_;
+  question.downlinks.kept = std::move(kept);
   if (const double limit = parameter(question, "sol_limit_j", -1); limit >= 0)
     for (const engine::ScheduledDownlink& one : schedule_->downlinks)
       question.downlinks.sol_energy_j[static_cast<std::uint32_t>(sol_of(question, one.start))] = limit;
-  Reading(question, on_board_, output.delta.has_value(), out).read(*schedule_);
+  Reading reading(question, on_board_, output.delta.has_value(), out);
+  for (const Step& step : version.rests) reading.add(request_of(version, step), step);
+  reading.read(*schedule_);
   check_downlinks(question, out);
   return out;
 }
 
 void ScheduleChecker::hear(const engine::StepInputs& inputs) {
-  if (inputs.executed) plan_ = *inputs.executed;
+  if (inputs.executed) {
+    plan_ = *inputs.executed;
+    history_.keep(plan_);
+  }
   for (const engine::StepStatus& step : inputs.steps) progress_[step.activity] = step.progress;
   for (const engine::DataProduct& product : inputs.products) {
     if (const auto step = step_named(product.source)) generated_.emplace(*step, product.kind);

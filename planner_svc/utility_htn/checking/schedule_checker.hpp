@@ -11,6 +11,7 @@
 
 #include "core/temporal/flexible_plan.hpp"
 #include "core/temporal/projection.hpp"
+#include "planner_svc/engine/plan_history.hpp"
 #include "planner_svc/engine/stepped_engine.hpp"
 #include "planner_svc/utility_htn/checking/question.hpp"
 #include "planner_svc/utility_htn/model/network.hpp"
@@ -23,7 +24,8 @@ namespace roci::planner::utility_htn::checking {
 /// the windows that appendix A asks for, or a reason is given.
 ///
 /// Of a downlink that runs only its whole capacity is known here, not what is left of it. What an activity that is
-/// late will generate may be told or not.
+/// late will generate may be told or not, and when is the engine's to say. Data of an activity that stood in the plan
+/// before may have lost their downlink, with the reason told.
 class ScheduleChecker {
  public:
   /// Takes in what a step hears and what comes of it, with the network then in force. Returns what is wrong with the
@@ -36,7 +38,8 @@ class ScheduleChecker {
  private:
   void hear(const engine::StepInputs& inputs);
 
-  temporal::FlexiblePlan plan_;
+  temporal::FlexiblePlan plan_;  // the newest one
+  engine::PlanHistory history_;  // what an executive that was started again knows may be an older one
   temporal::Progress progress_;
   std::map<std::string, engine::DataProduct> on_board_;  // by id; those that wait for a downlink
   std::set<std::pair<std::uint64_t, std::string>> generated_;  // by step, with the product's name

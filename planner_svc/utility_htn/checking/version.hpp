@@ -18,7 +18,7 @@ struct Version {
   std::vector<Block> blocks;                 ///< those of which no link has failed
   std::set<std::uint32_t> broken;            ///< numbers of the others: what is committed of them is skipped
   std::vector<Step> rests;                   ///< what runs or has succeeded of those
-  std::vector<model::TaskIndex> broken_off;  ///< their requests
+  std::vector<model::TaskIndex> broken_off;  ///< their requests, in the order of the numbers
   std::set<std::uint32_t> over;              ///< numbers of those that have ended
   model::Values values;                      ///< of parameters
   std::vector<Observation> internal;         ///< of timelines that nobody reports, as of the version

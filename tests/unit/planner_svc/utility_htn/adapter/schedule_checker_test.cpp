@@ -12,7 +12,7 @@ namespace roci::planner::utility_htn::adapter {
 namespace {
 
 using engine::DownlinkSchedule, engine::ScheduledDownlink;
-using ::testing::Contains, ::testing::HasSubstr;
+using ::testing::Contains, ::testing::HasSubstr, ::testing::IsEmpty, ::testing::Not;
 
 struct Damage {
   const char* name;
@@ -115,6 +115,42 @@ const Damage kDamages[] = {
 
 INSTANTIATE_TEST_SUITE_P(Each, DamagedSchedules, ::testing::ValuesIn(kDamages),
                          [](const auto& test) { return std::string(test.param.name); });
+
+// An executive that was started again may know an older version than the newest, which the engine changes then.
+TEST_F(OutlookTest, TheCheckerFollowsAChangeOfAnOlderVersion) {
+  start();
+  engine::StepInputs inputs;
+  inputs.now = now_;
+  engine::StepOutput newer, from_the_older;
+  temporal::FlexiblePlan next = plan_;
+  ++next.version;
+  newer.delta = temporal::difference(plan_, next);
+  ++next.version;
+  from_the_older.delta = temporal::difference(plan_, next);
+  EXPECT_THAT(checker_.faults(network_, inputs, newer), IsEmpty());
+  EXPECT_THAT(checker_.faults(network_, inputs, from_the_older), IsEmpty());
+  from_the_older.delta->from_version = 77;
+  EXPECT_THAT(checker_.faults(network_, inputs, from_the_older), Contains(HasSubstr("does not follow")));
+}
+
+TEST_F(OutlookTest, OnlyDataOfWhatWasPlannedBeforeMayLoseTheirDownlink) {
+  network_ = imaging_lander();
+  UtilityEngine engine({"utility_htn", "lander", "", ""}, imaging_lander(), {});
+  engine::StepInputs inputs;
+  inputs.goals.push_back(whole_mission());
+  inputs.observations.push_back({"lander.battery", *battery_, now_});
+  inputs.receipt = engine::Receipt{0, 0, "", "", true};
+  inputs.now = now_;
+  engine::StepOutput told = engine.step(inputs);
+  ASSERT_TRUE(told.delta && told.schedule);
+  auto& products = loaded(*told.schedule).products;
+  told.schedule->left_out.push_back({products.front(), "the windows are full"});
+  products.erase(products.begin());
+  checking::ScheduleChecker checker;
+  EXPECT_THAT(checker.faults(network_, inputs, told), Contains(HasSubstr("is planned although its product")));
+  told.delta.reset();
+  EXPECT_THAT(checker.faults(network_, inputs, told), Not(Contains(HasSubstr("is planned although"))));
+}
 
 // The limit of a downlink is for 20 s of its 300 s.
 TEST_F(OutlookTest, TheCheckerKnowsTheLimitOfOneDownlink) {
