@@ -22,7 +22,7 @@ using ::testing::Not;
 // Goals, recalls, cuts, deaths, and the steps from one event to the next; ROCI_PAIR_BOUNDS names others.
 std::vector<std::string> searches() {
   if (const char* const wanted = std::getenv("ROCI_PAIR_BOUNDS")) return {wanted};
-  return {"1 1 1 1 2", "2 1 0 2 2", "1 0 2 0 2"};
+  return {"1 1 1 1 2", "2 1 1 1 3", "2 1 0 2 2", "1 0 2 0 2"};
 }
 
 Bounds bounds_of(const std::string& text) {
