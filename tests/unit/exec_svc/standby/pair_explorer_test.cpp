@@ -53,7 +53,7 @@ class Planted : public ::testing::TestWithParam<Bug> {};
 TEST_P(Planted, BugIsFound) {
   Bounds bounds;
   bounds.goals = 1;
-  bounds.kills = 0;
+  bounds.kills = GetParam() == Bug::recall_lets_waiting_go ? 1 : 0;
   bounds.pace = 3;
   const Exploration exploration = explore(bounds, GetParam());
   EXPECT_THAT(exploration.way, Not(IsEmpty())) << exploration.states << " states";
@@ -81,6 +81,8 @@ struct Name {
         return "goals_not_merged";
       case Bug::recall_not_merged:
         return "recall_not_merged";
+      case Bug::recall_lets_waiting_go:
+        return "recall_lets_waiting_go";
       case Bug::acknowledges_early:
         return "acknowledges_early";
       case Bug::none:
@@ -93,7 +95,8 @@ struct Name {
 
 INSTANTIATE_TEST_SUITE_P(Bugs, Planted,
                          ::testing::Values(Bug::no_owner_leases, Bug::goals_not_merged,
-                                           Bug::recall_not_merged, Bug::acknowledges_early),
+                                           Bug::recall_not_merged, Bug::recall_lets_waiting_go,
+                                           Bug::acknowledges_early),
                          Name());
 
 }  // namespace

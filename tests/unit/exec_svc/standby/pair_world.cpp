@@ -431,7 +431,8 @@ void PairWorld::send_unsent(Member member) {
 void PairWorld::send(Member member, const Line& line) {
   Process& process = at(member);
   if (line.word == Word::command) return command(member, line);
-  if (line.goal && line.goal->request.recalled)  // by the ground or by the other executive
+  const bool told_here = line.word == Word::recall;  // else the other executive was told
+  if (line.goal && line.goal->request.recalled && (told_here || bug_ != Bug::recall_lets_waiting_go))
     std::erase_if(process.waiting, [&](const Line& other) { return other.number == line.number; });
   if (line.goal) acknowledge(member, line);
 }

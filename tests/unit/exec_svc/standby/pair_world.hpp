@@ -55,6 +55,7 @@ enum class Bug {
   silent_owner_not_held,  // an owner that a member has not heard for longer than its lease counts as dead to it
   goals_not_merged,
   recall_not_merged,
+  recall_lets_waiting_go,  // a command that waits for leases goes although the other executive was told to recall it
   acknowledges_early
 };
 
