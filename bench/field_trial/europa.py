@@ -19,6 +19,7 @@ from europa_flights import Flight, fly
 from europa_kills import KilledFlight, fly_killing
 from europa_knowing import knowing
 from europa_scenarios import Scenario, draw
+from europa_schedules import schedules_of
 from flights import Programs, lay_out_mission
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -43,7 +44,7 @@ class Trial:
         tell(name, flight)
         return flight
 
-    def one(self, seed: int, with_knowing: bool, with_kills: bool) -> europa_report.Record:
+    def one(self, seed: int, with_knowing: bool, with_kills: bool, with_schedules: bool) -> europa_report.Record:
         scenario = draw(seed)
         record = europa_report.Record(scenario, self.fly(scenario, scenario.name))
         if record.flight.result == "crashed":
@@ -56,6 +57,11 @@ class Trial:
             tell(f"killed-{seed:04d} ({record.killed.kills}, {record.killed.dds})", record.killed.flight)
             for fault in record.killed.faults:
                 print(f"killed-{seed:04d}: RULE BROKEN: {fault}", flush=True)
+        if with_schedules:
+            record.schedules = [schedules_of(self.arguments.bin, self.arguments.out / kind / scenario.name)
+                                for kind in (("flights", "kills") if with_kills else ("flights",))]
+            for fault in (fault for one in record.schedules for fault in one.faults):
+                print(f"{scenario.name}: SCHEDULE WRONG: {fault}", flush=True)
         return record
 
 
@@ -65,6 +71,7 @@ def main() -> int:
     parser.add_argument("--seed", type=int, default=1, help="of the first; the others count up (1)")
     parser.add_argument("--knowing", type=int, default=0, help="how many of the first ones fly again with a planner that knows (0)")
     parser.add_argument("--kills", type=int, default=0, help="how many of the first ones fly again as processes that are killed (0)")
+    parser.add_argument("--schedules", type=int, default=0, help="of how many of the first ones every schedule of downlinks is computed anew (0)")
     parser.add_argument("--out", type=Path, required=True, help="folder for scenarios, journals and results")
     parser.add_argument("--report", type=Path, help="Markdown file to write (default: OUT/field-trial-europa.md)")
     parser.add_argument("--bin", type=Path, default=ROOT / "build/release/bin", help="programs (build/release/bin)")
@@ -72,12 +79,12 @@ def main() -> int:
     parser.add_argument("--flown", action="store_true", help="take the flights that lie in OUT already, fly what is missing")
     arguments = parser.parse_args()
     arguments.out, arguments.bin = arguments.out.resolve(), arguments.bin.resolve()
-    for program in ("roci-rehearse", "roci-launch"):
+    for program in ("roci-rehearse", "roci-launch", "roci-network"):
         if not (arguments.bin / program).exists():
             parser.error(f"{program} is missing; build it: ninja -C build/release programs roci-rehearse")
     trial = Trial(arguments)
     with ThreadPoolExecutor(arguments.jobs) as workers:
-        records = list(workers.map(lambda i: trial.one(arguments.seed + i, i < arguments.knowing, i < arguments.kills), range(arguments.runs)))
+        records = list(workers.map(lambda i: trial.one(arguments.seed + i, i < arguments.knowing, i < arguments.kills, i < arguments.schedules), range(arguments.runs)))
     target = arguments.report or arguments.out / "field-trial-europa.md"
     europa_report.write(records, target)
     print(f"report: {target}")

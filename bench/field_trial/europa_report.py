@@ -5,13 +5,14 @@ from __future__ import annotations
 import math
 import sys
 from collections import Counter
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from xml.sax.saxutils import escape
 
 from europa_flights import RANKS, Flight
 from europa_kills import KilledFlight
 from europa_scenarios import UNCERTAINTIES, Scenario
+from europa_schedules import Schedules
 from report import HAND, examples, percent, seeds_of, table
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "europa/report"))
@@ -24,10 +25,11 @@ class Record:
     flight: Flight
     knowing: Flight | None = None
     killed: KilledFlight | None = None
+    schedules: list[Schedules] = field(default_factory=list)  # of the flight, and of the killed one
 
     @property
     def faults(self) -> list[str]:
-        return self.flight.faults + (self.killed.faults if self.killed else [])
+        return self.flight.faults + (self.killed.faults if self.killed else []) + [fault for one in self.schedules for fault in one.faults]
 
 
 def shown(estimate: Estimate, factor: float = 1, unit: str = "") -> str:
@@ -62,6 +64,12 @@ def flights_section(records: list[Record]) -> str:
     total = sum(len(one.refused) for one in flights)
     out += f"\n**Plan versions refused** by the independent checker or the executive, and so never flown: {total}"
     out += f" in {len(refused)} flights ({examples([one.seed for one in refused])}).\n" if refused else ".\n"
+    checked = [(one.scenario.seed, schedules) for one in records for schedules in one.schedules]
+    if checked:
+        wrong = [(seed, fault) for seed, one in checked for fault in one.faults]
+        out += (f"\n**Schedules of downlinks**, each computed anew by the independent checker from the records of {len(checked)} flights, "
+                f"killed ones among them: {sum(one.checked for _, one in checked)}, {'none of them wrong' if not wrong else 'wrong in ' + str(len(wrong)) + ' records'}.\n")
+        out += "".join(f"- seed {seed}: {fault}\n" for seed, fault in wrong)
     rows = []
     for name, text in (("", "all ranks"), *((rank, rank) for rank in RANKS)):
         some = pairs(records)
@@ -155,9 +163,10 @@ def write(records: list[Record], target: Path) -> None:
     (target.parent / "pictures").mkdir(parents=True, exist_ok=True)
     picture = target.parent / "pictures" / f"{target.stem}.svg"
     picture.write_text(bars(records))
+    schedules = sum(bool(one.schedules) for one in records)
     known, killed = sum(one.knowing is not None for one in records), sum(one.killed is not None for one in records)
     first = records[0].scenario.seed
-    command = f"bench/field_trial/europa.py --runs {len(records)} --seed {first} --knowing {known} --kills {killed} --out FOLDER --report docs/field-trial-europa.md"
+    command = f"bench/field_trial/europa.py --runs {len(records)} --seed {first} --knowing {known} --kills {killed}{f' --schedules {schedules}' if schedules else ''} --out FOLDER --report docs/field-trial-europa.md"
     head = f"""# Field trial: the Europa lander
 
 {len(records)} flights of `missions/europa`, seeds {seeds_of(records)}; into each a seed draws any of the 16 uncertainties of MEXEC, section IV.C.3 (R117, R120):

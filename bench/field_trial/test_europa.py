@@ -13,6 +13,7 @@ import europa_flights as flights
 from europa_kills import draw_kills, products_lost, samples_missing
 from europa_knowing import DURATIONS, POWERS_W, knowing, too_hard
 from europa_scenarios import RATE_BYTE_S, SHOCKS_J, UNCERTAINTIES, Scenario, draw
+from europa_schedules import schedules_of
 
 MISSION = Path(__file__).resolve().parents[2] / "missions/europa"
 S = 1_000_000
@@ -266,6 +267,22 @@ class Constants(unittest.TestCase):
         text = (MISSION / "model.yaml").read_text()
         for name in [parameter for parameter, _, _ in DURATIONS.values()] + [re.sub(r"_\d$", "_{site}", name) for name in POWERS_W]:
             self.assertIn(f"  {name}:", text, name)
+
+
+class ScheduleTest(unittest.TestCase):
+    def test_each_record_counts_and_faults_are_told(self):
+        folder = Path(tempfile.mkdtemp())
+        (folder / "planner_steps").mkdir()
+        for name, text, code in (("1", "9 cycles; 40 schedules of downlinks: no fault", 0),
+                                 ("2", "cycle 3, at 9 s\n  downlinks: 'x' is no downlink of the plan\n9 cycles; 2 schedules of downlinks: faults in 1 cycles", 1),
+                                 ("3", "", 1)):
+            (folder / "planner_steps" / f"{name}.steps").write_text(f"{code}\n{text}")
+        program = folder / "roci-network"
+        program.write_text("#!/bin/sh\ntail -n +2 $2\nexit $(head -n 1 $2)\n")
+        program.chmod(0o755)
+        found = schedules_of(folder, folder)
+        self.assertEqual(found.checked, 42)
+        self.assertEqual(found.faults, ["2.steps: downlinks: 'x' is no downlink of the plan", "3.steps: no summary"])
 
 
 if __name__ == "__main__":
