@@ -36,6 +36,8 @@ using Clock = std::chrono::steady_clock;
 using services::contract::ChildProcess;
 
 const std::vector<std::string> kVendors = {"fastdds", "cyclonedds"};
+// The client on Fast DDS, the server on Cyclone DDS; it has no bare form.
+constexpr char kMixed[] = "mixed";
 // The kinds are bare (the vendor's API), ours (writer and reader of our transport), call (services/rpc.hpp on
 // top of it), tuples (1,000 argument tuples in one request of ours), reaction (from an observation to the
 // executive's command) and dedicated (the same through a dedicated executive). With --secure there are secure and
@@ -50,7 +52,9 @@ std::vector<std::string> all_kinds() {
 
 std::unique_ptr<Port> open(const std::string& variant, PortOptions options) {
   const auto dash = variant.find('-');
-  const auto kind = variant.substr(0, dash), vendor = variant.substr(dash + 1);
+  const auto kind = variant.substr(0, dash);
+  std::string vendor = variant.substr(dash + 1);
+  if (vendor == kMixed) vendor = kVendors[options.side == Side::client ? 0 : 1];
   options.secure = kind.starts_with("secure");
   if (kind == "secure") return open_ours(vendor, std::move(options));
   if (kind == "secure_tuples") return open_ours_with_tuples(vendor, std::move(options));
@@ -279,6 +283,7 @@ nlohmann::json measure(const std::string& program, const BenchOptions& options) 
   for (const auto& vendor : vendors) {
     for (const auto& kind : kinds) {
       const auto variant = kind + "-" + vendor;
+      if (variant == std::string("bare-") + kMixed) continue;
       tell("starting " + variant);
       rallies.emplace(std::piecewise_construct, std::forward_as_tuple(variant),
                       std::forward_as_tuple(program, variant));
@@ -353,9 +358,10 @@ int main(int argc, char** argv) {
                  "these alone: bare, ours, call, tuples, reaction, dedicated, secure, secure_tuples")
       ->delimiter(',')
       ->check(CLI::IsMember(roci::bench::all_kinds()));
-  app.add_option("--vendors", options.vendors, "these alone")
+  app.add_option("--vendors", options.vendors,
+                 "these alone; mixed: the client on Fast DDS, the server on Cyclone DDS")
       ->delimiter(',')
-      ->check(CLI::IsMember(roci::bench::kVendors));
+      ->check(CLI::IsMember({"fastdds", "cyclonedds", roci::bench::kMixed}));
   app.add_option("--load", options.load, "threads that compute meanwhile");
   std::string keys;
   app.add_option("--secure", keys,
