@@ -20,7 +20,9 @@ inline constexpr std::int64_t kInputFormat = 15;
 
 /// Returns what a journal of a version also states in SQLite's application_id, so that one flipped byte is not taken
 /// for a newer version.
-constexpr std::int32_t stamp_of(std::int32_t version) { return 0x524f0000 + version; }
+constexpr std::int32_t stamp_of(std::int32_t version) {  // of a damaged one, too
+  return static_cast<std::int32_t>(0x524f0000U + static_cast<std::uint32_t>(version));
+}
 
 /// Holds what a journal states of its version, in two places.
 struct StatedFormat {

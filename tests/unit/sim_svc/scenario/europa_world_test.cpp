@@ -59,7 +59,7 @@ std::map<std::string, Share> shares(std::uint64_t seed) {
     for (int i = 0; i < 3000 && run.stage(activity) == services::owner::Stage::accepted; ++i)
       run.advance(now += seconds(60));
     EXPECT_EQ(run.code(activity), "done") << activity << ": " << run.last_ack(activity)->status.reason;
-    const auto& results = run.last_ack(activity)->status.results;
+    const auto results = run.last_ack(activity)->status.results;
     Share& share = out[one.component + " " + one.command];
     share.seconds += temporal::to_seconds(results.duration.value_or(temporal::Duration{}));
     share.joules += results.energy_j.value_or(0);
