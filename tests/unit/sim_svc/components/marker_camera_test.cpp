@@ -50,7 +50,7 @@ TEST(MarkerCamera, RocksOfTheMapAndHiddenOnesHideIt) {
 
 TEST(MarkerCamera, AHillHidesIt) {
   terrain::SiteLayers layers = flat_site()->layers();
-  const terrain::Grid& grid = flat_site()->grid();
+  const terrain::Grid grid = flat_site()->grid();
   for (int row = 0; row < grid.rows; ++row) layers.elevation[grid.index({23, row})] = 2;
   const world::Ground hill{std::make_shared<terrain::Site>(grid, layers), {}};
   EXPECT_THAT(unseen({20, 20, 0}, {27, 20, 0}, hill), HasSubstr("hides it"));
