@@ -4,6 +4,7 @@
 #include <set>
 #include <utility>
 
+#include "core/temporal/plan_delta.hpp"
 #include "planner_svc/utility_htn/checking/course.hpp"
 #include "planner_svc/utility_htn/checking/parts.hpp"
 #include "planner_svc/utility_htn/checking/version.hpp"
@@ -170,8 +171,9 @@ std::vector<std::string> ScheduleChecker::faults(const model::Network& network,
   for (const temporal::PlanActivity& activity : plan_.activities)
     if (const auto step = step_named(activity.id)) kept.insert(*step);
   if (output.delta) {
-    temporal::FlexiblePlan next;
-    if (std::string fault = history_.apply(*output.delta, next); !fault.empty()) return {fault};
+    const temporal::FlexiblePlan* const from = history_.version(output.delta->from_version);
+    temporal::FlexiblePlan next = from != nullptr ? *from : temporal::FlexiblePlan{};
+    if (std::string fault = temporal::apply(*output.delta, next); !fault.empty()) return {fault};
     plan_ = next;
     history_.keep(std::move(next));
   }
