@@ -3,7 +3,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <fstream>
 #include <stdexcept>
 #include <thread>
 #include <utility>
@@ -38,11 +37,9 @@ std::string described(const services::process::RunRecord& run) {
 
 // Also of a child that nobody has waited for: its record is gone, and it will never have another.
 bool has_ended(std::int64_t pid) {
-  std::ifstream stat("/proc/" + std::to_string(pid) + "/stat");
-  std::string text;
-  if (!std::getline(stat, text)) return true;
-  const std::size_t name_end = text.rfind(')');
-  return name_end == std::string::npos || text.substr(name_end + 2, 1) == "Z";
+  constexpr int kState = 3;
+  const std::string state = services::process::stat_field(pid, kState);
+  return state.empty() || state == "Z";
 }
 
 }  // namespace

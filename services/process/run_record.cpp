@@ -19,7 +19,8 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-constexpr int kStartField = 22;  // of /proc/PID/stat, counted from 1 (proc(5))
+constexpr int kFirstField = 3;   // of /proc/PID/stat behind the name, counted from 1 (proc(5))
+constexpr int kStartField = 22;
 
 json to_json(const RunRecord& run) {
   return {{"format", kRunRecordFormat},
@@ -98,17 +99,21 @@ fs::path runtime_folder() {
   return folder;
 }
 
-std::uint64_t start_of_process(std::int64_t pid) {
+std::string stat_field(std::int64_t pid, int field) {
   std::ifstream stat("/proc/" + std::to_string(pid) + "/stat");
   std::string text;
   std::getline(stat, text);
   const std::size_t name_end = text.rfind(')');  // a name may have blanks and brackets
-  if (name_end == std::string::npos) return 0;
+  if (name_end == std::string::npos) return "";
   std::istringstream fields(text.substr(name_end + 1));
   std::string word;
-  for (int field = 3; field <= kStartField; ++field)
-    if (!(fields >> word)) return 0;
-  return std::strtoull(word.c_str(), nullptr, 10);
+  for (int at = kFirstField; at <= field; ++at)
+    if (!(fields >> word)) return "";
+  return word;
+}
+
+std::uint64_t start_of_process(std::int64_t pid) {
+  return std::strtoull(stat_field(pid, kStartField).c_str(), nullptr, 10);
 }
 
 PublishedRun::PublishedRun(const fs::path& folder, const RunRecord& run)

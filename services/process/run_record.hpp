@@ -37,6 +37,9 @@ struct RunRecord {
 /// std::runtime_error where somebody else has made it.
 std::filesystem::path runtime_folder();
 
+/// Returns a field of /proc/PID/stat from the third on, by its number in proc(5); empty if there is no such process.
+std::string stat_field(std::int64_t pid, int field);
+
 /// Returns when a process began, in the kernel's ticks since the host's start (proc(5), starttime); 0 if it is not
 /// known. No two processes of a host have number and beginning in common.
 std::uint64_t start_of_process(std::int64_t pid);
