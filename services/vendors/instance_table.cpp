@@ -20,9 +20,10 @@ bool InstanceTable::wrote(const Key& key, const transport::Guid& writer) {
   return true;
 }
 
-void InstanceTable::introduce(const Key& key, const transport::Guid& writer, transport::Payload key_payload) {
-  if (alive_.size() >= kInstances && !alive_.contains(key)) return;
+bool InstanceTable::introduce(const Key& key, const transport::Guid& writer, transport::Payload key_payload) {
+  if (alive_.size() >= kInstances && !alive_.contains(key)) return false;
   alive_[key] = {std::move(key_payload), {writer}};
+  return true;
 }
 
 std::optional<transport::Payload> InstanceTable::ended(const Key& key) {
@@ -31,18 +32,24 @@ std::optional<transport::Payload> InstanceTable::ended(const Key& key) {
   return std::move(node.mapped().key_payload);
 }
 
-std::vector<transport::Payload> InstanceTable::writer_left(const transport::Guid& writer) {
-  std::vector<transport::Payload> orphans;
+std::vector<InstanceTable::Orphan> InstanceTable::writer_left(const transport::Guid& writer) {
+  std::vector<Orphan> orphans;
   for (auto it = alive_.begin(); it != alive_.end();) {
     auto& instance = it->second;
     if (std::erase(instance.writers, writer) > 0 && instance.writers.empty()) {
-      orphans.push_back(std::move(instance.key_payload));
+      orphans.push_back({it->first, std::move(instance.key_payload)});
       it = alive_.erase(it);
     } else {
       ++it;
     }
   }
   return orphans;
+}
+
+std::vector<InstanceTable::Key> InstanceTable::keys() const {
+  std::vector<Key> keys;
+  for (const auto& [key, instance] : alive_) keys.push_back(key);
+  return keys;
 }
 
 }  // namespace roci::services::vendors

@@ -22,9 +22,9 @@ class InstanceTable {
 
   /// Notes that `writer` wrote the instance. Returns false if the instance is new and must be introduced.
   bool wrote(const Key&, const transport::Guid& writer);
-  /// Enters a new instance. With kInstances alive it is not entered: its samples are read, but its end is not
-  /// reported.
-  void introduce(const Key&, const transport::Guid& writer, transport::Payload key_payload);
+  /// Enters a new instance and returns true. With kInstances alive it is not entered: its samples are read, but its end
+  /// is not reported.
+  bool introduce(const Key&, const transport::Guid& writer, transport::Payload key_payload);
 
   /// Bounds the instances of a topic that are followed: several times every goal, timeline and step that the
   /// parts above keep.
@@ -36,8 +36,15 @@ class InstanceTable {
   /// nothing if it was not alive here.
   std::optional<transport::Payload> ended(const Key&);
 
-  /// Returns the key-only payloads of the instances that nobody writes any more, now that `writer` has gone.
-  std::vector<transport::Payload> writer_left(const transport::Guid& writer);
+  struct Orphan {
+    Key key;
+    transport::Payload key_payload;
+  };
+  /// Returns the instances that nobody writes any more, now that `writer` has gone.
+  std::vector<Orphan> writer_left(const transport::Guid& writer);
+
+  /// Returns the keys of all instances that are alive.
+  std::vector<Key> keys() const;
 
  private:
   struct Instance {

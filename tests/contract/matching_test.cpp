@@ -86,6 +86,22 @@ TEST_P(Matching, AndForAVolatileReaderOfAWriterThatKeepsThePastForOthers) {
   }
 }
 
+TEST_P(Matching, WhoJoinsLateHearsOfInstancesInTheOrderInWhichTheyWereWritten) {
+  const auto sender = open_writing();
+  const auto receiver = open_reading();
+  Inbox inbox;
+  const auto writer = sender->create_writer(round_endpoint(0, latched(1)), {});
+  std::vector<std::string> written;
+  for (int i = 1; i <= kBurst; ++i) {
+    const std::string name = "goal-" + std::to_string(i);
+    ASSERT_TRUE(writer->write(goal(name, i)));
+    written.push_back(name + "=" + std::to_string(i));
+  }
+  const auto reader = receiver->create_reader(round_endpoint(0, latched(1)), inbox.reader_events());
+  ASSERT_TRUE(inbox.wait_for_samples(kBurst)) << inbox.samples().size();
+  EXPECT_THAT(inbox.goals(), ElementsAreArray(written));
+}
+
 TEST_P(Matching, AReaderThatJoinsAStreamMissesNothingFromThenOn) {
   const auto sender = open_writing();
   // Beside the writer: Cyclone DDS merges what its readers of one process hear of a remote writer.

@@ -34,7 +34,8 @@ std::optional<KeyHash> key_hash_of(const transport::TypeDescription& type,
   return hash;
 }
 
-BytesType::BytesType(const transport::TypeDescription& type) : type_(type) {
+BytesType::BytesType(const transport::TypeDescription& type, std::shared_ptr<KeySlots> slots)
+    : type_(type), slots_(std::move(slots)) {
   setName(type.name.c_str());
   m_typeSize = kInitialSize;
   m_isGetKeyDefined = type.keyed;
@@ -73,7 +74,9 @@ bool BytesType::getKey(void* data, InstanceHandle_t* handle, bool force_md5) {
   const auto known =
       bytes.key_hash && !force_md5 ? bytes.key_hash : key_hash_of(type_, bytes.view, force_md5);
   const KeyHash hash = known ? *known : md5_of(bytes.view);
-  for (std::size_t i = 0; i < hash.size(); ++i) handle->value[i] = hash[i];
+  const bool received = !bytes.key_hash;
+  const KeySlots::Handle seen = received && slots_ ? slots_->handle_of(hash) : hash;
+  for (std::size_t i = 0; i < seen.size(); ++i) handle->value[i] = seen[i];
   return true;
 }
 

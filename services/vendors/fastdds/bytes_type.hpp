@@ -3,14 +3,16 @@
 
 #include <array>
 #include <fastdds/dds/topic/TopicDataType.hpp>
+#include <memory>
 #include <optional>
 #include <span>
 
 #include "services/transport/transport.hpp"
+#include "services/vendors/key_slots.hpp"
 
 namespace roci::services::vendors::fastdds {
 
-using KeyHash = std::array<std::uint8_t, 16>;
+using KeyHash = KeySlots::KeyHash;
 
 /// Holds what the vendor's `void* data` points to. A writer lends the bytes, a reader's sample owns them.
 struct Bytes {
@@ -27,7 +29,8 @@ std::optional<KeyHash> key_hash_of(const transport::TypeDescription&, std::span<
 /// Tells Fast DDS how to copy samples and find their keys.
 class BytesType : public eprosima::fastdds::dds::TopicDataType {
  public:
-  explicit BytesType(const transport::TypeDescription&);
+  /// Received samples that bring no key hash are given slots; without these, their key hashes.
+  BytesType(const transport::TypeDescription&, std::shared_ptr<KeySlots>);
 
   bool serialize(void* data, eprosima::fastrtps::rtps::SerializedPayload_t*) override;
   bool deserialize(eprosima::fastrtps::rtps::SerializedPayload_t*, void* data) override;
@@ -40,6 +43,7 @@ class BytesType : public eprosima::fastdds::dds::TopicDataType {
 
  private:
   const transport::TypeDescription type_;
+  const std::shared_ptr<KeySlots> slots_;
 };
 
 }  // namespace roci::services::vendors::fastdds

@@ -2,12 +2,14 @@
 
 #include <fastrtps/utils/IPLocator.h>
 
+#include <algorithm>
 #include <fastdds/rtps/common/LocatorList.hpp>
 #include <mutex>
 #include <span>
 #include <vector>
 
 #include "services/vendors/guard/assembly.hpp"
+#include "services/vendors/guard/message.hpp"
 
 namespace roci::services::vendors::fastdds {
 
@@ -37,9 +39,10 @@ std::optional<guard::Source> source_of(const Locator_t& locator) {
 class GuardedTransport : public transports::ChainingTransport {
  public:
   GuardedTransport(const transports::ChainingTransportDescriptor& descriptor,
-                   std::shared_ptr<guard::Guard> guard)
+                   std::shared_ptr<guard::Guard> guard, std::shared_ptr<KeySlots> slots)
       : ChainingTransport(descriptor),
         guard_(std::move(guard)),
+        slots_(std::move(slots)),
         descriptor_(descriptor.low_level_descriptor) {}
 
   transports::TransportDescriptorInterface* get_configuration() override { return descriptor_.get(); }
@@ -64,6 +67,13 @@ class GuardedTransport : public transports::ChainingTransport {
     const std::span<octet> datagram{const_cast<octet*>(bytes), size};
     std::size_t left = guard_->admit(datagram, source_of(remote));
     if (left == 0) return;
+    if (slots_) {
+      guard::for_each_key_hash(datagram.first(left), [this](std::span<octet, 16> hash) {
+        KeySlots::KeyHash key;
+        std::ranges::copy(hash, key.begin());
+        std::ranges::copy(slots_->handle_of(key), hash.begin());
+      });
+    }
     std::vector<std::vector<octet>> whole;
     {
       const std::lock_guard lock(mutex_);
@@ -89,6 +99,7 @@ class GuardedTransport : public transports::ChainingTransport {
   }
 
   const std::shared_ptr<guard::Guard> guard_;
+  const std::shared_ptr<KeySlots> slots_;
   const std::shared_ptr<transports::TransportDescriptorInterface> descriptor_;
   std::mutex mutex_;
   guard::Assembly assembly_;
@@ -97,10 +108,10 @@ class GuardedTransport : public transports::ChainingTransport {
 class GuardedDescriptor : public transports::ChainingTransportDescriptor {
  public:
   GuardedDescriptor(std::shared_ptr<transports::TransportDescriptorInterface> udp,
-                    std::shared_ptr<guard::Guard> guard)
-      : ChainingTransportDescriptor(std::move(udp)), guard_(std::move(guard)) {}
+                    std::shared_ptr<guard::Guard> guard, std::shared_ptr<KeySlots> slots)
+      : ChainingTransportDescriptor(std::move(udp)), guard_(std::move(guard)), slots_(std::move(slots)) {}
   transports::TransportInterface* create_transport() const override {
-    return new GuardedTransport(*this, guard_);
+    return new GuardedTransport(*this, guard_, slots_);
   }
   /// Fast DDS fills messages up to this size and then adds its statistics, for which it keeps no room.
   std::uint32_t max_message_size() const override {
@@ -109,13 +120,15 @@ class GuardedDescriptor : public transports::ChainingTransportDescriptor {
 
  private:
   const std::shared_ptr<guard::Guard> guard_;
+  const std::shared_ptr<KeySlots> slots_;
 };
 
 }  // namespace
 
 std::shared_ptr<transports::TransportDescriptorInterface> guarded(
-    std::shared_ptr<transports::TransportDescriptorInterface> udp, std::shared_ptr<guard::Guard> guard) {
-  return std::make_shared<GuardedDescriptor>(std::move(udp), std::move(guard));
+    std::shared_ptr<transports::TransportDescriptorInterface> udp, std::shared_ptr<guard::Guard> guard,
+    std::shared_ptr<KeySlots> slots) {
+  return std::make_shared<GuardedDescriptor>(std::move(udp), std::move(guard), std::move(slots));
 }
 
 }  // namespace roci::services::vendors::fastdds

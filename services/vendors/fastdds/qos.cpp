@@ -71,7 +71,7 @@ void guard_transports(const std::shared_ptr<guard::Guard>& guard, dds::Transport
         std::make_shared<eprosima::fastdds::rtps::UDPv4TransportDescriptor>());
   }
   for (auto& descriptor : transport.user_transports)
-    if (dynamic_cast<UDPTransportDescriptor*>(descriptor.get())) descriptor = guarded(descriptor, guard);
+    if (dynamic_cast<UDPTransportDescriptor*>(descriptor.get())) descriptor = guarded(descriptor, guard, nullptr);
 }
 
 void set_history(const transport::QosSettings& settings, dds::HistoryQosPolicy& history,
@@ -87,7 +87,8 @@ void set_history(const transport::QosSettings& settings, dds::HistoryQosPolicy& 
 }  // namespace
 
 dds::DomainParticipantQos participant_qos(const transport::TransportOptions& options,
-                                          const std::shared_ptr<guard::Guard>& guard, std::uint16_t port) {
+                                          const std::shared_ptr<guard::Guard>& guard,
+                                          const std::shared_ptr<KeySlots>& slots, std::uint16_t port) {
   auto qos = options.vendor_xml.empty() ? dds::DomainParticipantQos() : profile_of(options.vendor_xml);
   qos.name(options.participant.c_str());
   const std::string announcement = options.announcement.value_or("");
@@ -104,7 +105,7 @@ dds::DomainParticipantQos participant_qos(const transport::TransportOptions& opt
   udp->m_output_udp_socket = port;
   udp->maxInitialPeersRange = transport::kMaxParticipantsPerHost;
   qos.transport().use_builtin_transports = false;
-  qos.transport().user_transports = {guarded(udp, guard)};
+  qos.transport().user_transports = {guarded(udp, guard, slots)};
 
   auto& wire = qos.wire_protocol();
   wire.prefix = options.credentials ? candidate_naming(port) : prefix_naming(port);

@@ -8,14 +8,16 @@
 
 #include "services/transport/transport.hpp"
 #include "services/vendors/guard/guard.hpp"
+#include "services/vendors/key_slots.hpp"
 
 namespace roci::services::vendors::fastdds {
 
 /// Returns UDP unicast on options.address alone, sent from `port`, after which the participant is named, or, with
 /// vendor_xml, the default participant profile of that file with its built-in transports replaced by UDPv4. Datagrams
-/// pass `guard` in either case.
+/// pass `guard` in either case; `slots`: guarded_transport.hpp.
 eprosima::fastdds::dds::DomainParticipantQos participant_qos(const transport::TransportOptions&,
                                                              const std::shared_ptr<guard::Guard>& guard,
+                                                             const std::shared_ptr<KeySlots>& slots,
                                                              std::uint16_t port);
 
 eprosima::fastrtps::Duration_t blocking_time(const transport::QosSettings&);

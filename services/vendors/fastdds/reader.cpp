@@ -1,6 +1,9 @@
 #include "services/vendors/fastdds/reader.hpp"
 
+#include <algorithm>
 #include <fastdds/dds/subscriber/SampleInfo.hpp>
+#include <map>
+#include <vector>
 
 #include "services/vendors/fastdds/guid.hpp"
 #include "services/vendors/fastdds/qos.hpp"
@@ -17,13 +20,36 @@ InstanceTable::Key key_of(const dds::InstanceHandle_t& handle) {
   return key;
 }
 
+struct Taken {
+  Bytes bytes;
+  dds::SampleInfo info;
+};
+
+// Fast DDS gives what has come meanwhile instance by instance. Here it is in the order in which it came, and what one
+// writer wrote, where a part was lost and came again, in the order in which it was written.
+void put_in_order(std::vector<Taken>& taken) {
+  std::ranges::stable_sort(taken, {}, [](const Taken& one) { return one.info.reception_timestamp.to_ns(); });
+  std::map<transport::Guid, std::vector<std::size_t>> places;  // of each writer's samples
+  for (std::size_t i = 0; i < taken.size(); ++i)
+    places[to_guid(taken[i].info.sample_identity.writer_guid())].push_back(i);
+  std::vector<Taken> ordered(taken.size());
+  for (const auto& [writer, of_writer] : places) {
+    auto written = of_writer;
+    std::ranges::sort(written, {}, [&](std::size_t i) { return taken[i].info.sample_identity.sequence_number(); });
+    for (std::size_t i = 0; i < written.size(); ++i) ordered[of_writer[i]] = std::move(taken[written[i]]);
+  }
+  taken = std::move(ordered);
+}
+
 }  // namespace
 
 FastReader::FastReader(dds::Subscriber& subscriber, dds::Topic& topic,
-                       const transport::EndpointDescription& endpoint, transport::ReaderEvents events)
+                       const transport::EndpointDescription& endpoint, transport::ReaderEvents events,
+                       std::shared_ptr<KeySlots> slots)
     : subscriber_(subscriber),
       type_(endpoint.type),
       events_(std::move(events)),
+      slots_(std::move(slots)),
       reader_(subscriber.create_datareader(&topic, reader_qos(endpoint.qos), this,
                                            dds::StatusMask::data_available()
                                                << dds::StatusMask::subscription_matched())) {
@@ -37,19 +63,21 @@ FastReader::~FastReader() {
   }
   reader_->set_listener(nullptr);
   subscriber_.delete_datareader(reader_);
+  for (const auto& key : instances_.keys()) release(key);
 }
 
 void FastReader::on_data_available(dds::DataReader* reader) {
-  for (;;) {
-    Bytes bytes;
-    dds::SampleInfo info;
-    if (reader->take_next_sample(&bytes, &info) != ReturnCode_t::RETCODE_OK) return;
-    const std::lock_guard lock(mutex_);
-    if (closed_) return;
-    if (info.valid_data) {
-      take_value(std::move(bytes), info);
+  std::vector<Taken> taken;
+  for (Taken one; reader->take_next_sample(&one.bytes, &one.info) == ReturnCode_t::RETCODE_OK; one = {})
+    taken.push_back(std::move(one));
+  if (taken.size() > 1) put_in_order(taken);
+  const std::lock_guard lock(mutex_);
+  if (closed_) return;
+  for (Taken& one : taken) {
+    if (one.info.valid_data) {
+      take_value(std::move(one.bytes), one.info);
     } else {
-      take_end(info);
+      take_end(one.info);
     }
   }
 }
@@ -61,15 +89,27 @@ void FastReader::take_value(Bytes&& bytes, const dds::SampleInfo& info) {
     if (!instances_.wrote(key, writer)) {
       transport::Payload serialized;
       if (!type_.serialized_key(bytes.owned, false, serialized)) return;
-      instances_.introduce(key, writer, key_only_payload(serialized));
+      follow(key, writer, key_only_payload(serialized));
     }
   }
   if (events_.on_sample) events_.on_sample({transport::SampleKind::data, std::move(bytes.owned), writer});
 }
 
+void FastReader::follow(const InstanceTable::Key& key, const transport::Guid& writer, transport::Payload key_payload) {
+  if (slots_ && !slots_->hold(key)) return;
+  if (!instances_.introduce(key, writer, std::move(key_payload))) release(key);
+}
+
+void FastReader::release(const InstanceTable::Key& key) {
+  if (slots_) slots_->release(key);
+}
+
 void FastReader::take_end(const dds::SampleInfo& info) {
-  auto key_payload = instances_.ended(key_of(info.instance_handle));
-  if (!key_payload || !events_.on_sample) return;
+  const auto key = key_of(info.instance_handle);
+  auto key_payload = instances_.ended(key);
+  if (!key_payload) return;
+  release(key);
+  if (!events_.on_sample) return;
   const bool disposed = info.instance_state == dds::NOT_ALIVE_DISPOSED_INSTANCE_STATE;
   events_.on_sample({disposed ? transport::SampleKind::disposed : transport::SampleKind::no_writers,
                      std::move(*key_payload), to_guid(info.sample_identity.writer_guid())});
@@ -85,7 +125,8 @@ void FastReader::on_subscription_matched(dds::DataReader*, const dds::Subscripti
   if (status.current_count_change > 0 && events_.on_writer) events_.on_writer(writer);
   if (status.current_count_change < 0) {
     // Fast DDS marks the instances of a writer that left, but reports no sample for it.
-    for (auto& key_payload : instances_.writer_left(writer)) {
+    for (auto& [key, key_payload] : instances_.writer_left(writer)) {
+      release(key);
       if (events_.on_sample)
         events_.on_sample({transport::SampleKind::no_writers, std::move(key_payload), writer});
     }

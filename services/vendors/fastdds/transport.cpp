@@ -46,12 +46,18 @@ guard::Policy policy_of(const transport::TransportOptions& options) {
   return policy;
 }
 
+// Where key hashes arrive encrypted, or by another transport of the profile, nothing can stand in their place.
+bool bounds_keys(const transport::TransportOptions& options) {
+  return !options.credentials && options.vendor_xml.empty();
+}
+
 class FastTransport : public transport::Transport, public transport::RefusesDatagrams {
  public:
   explicit FastTransport(const transport::TransportOptions& options)
       : announcement_(options.announcement.value_or("")),
         secure_(options.credentials.has_value()),
         guard_(std::make_shared<guard::Guard>(policy_of(options))),
+        slots_(bounds_keys(options) ? std::make_shared<KeySlots>() : nullptr),
         participants_(guard_) {
     if (options.vendor_xml.empty()) require_usable_addresses(options);
     switch_intraprocess_delivery_off();
@@ -61,7 +67,7 @@ class FastTransport : public transport::Transport, public transport::RefusesData
     for (int attempt = 0; attempt < kAttempts; ++attempt) {
       const std::uint16_t port = options.vendor_xml.empty() ? free_port(options.address) : 0;
       participant_ = factory->create_participant(static_cast<std::uint32_t>(options.domain),
-                                                 participant_qos(options, guard_, port), &participants_,
+                                                 participant_qos(options, guard_, slots_, port), &participants_,
                                                  dds::StatusMask::none());
       if (!participant_ || port == 0 || is_ours(port)) break;
       factory->delete_participant(participant_);
@@ -95,7 +101,7 @@ class FastTransport : public transport::Transport, public transport::RefusesData
   std::unique_ptr<transport::Reader> create_reader(const transport::EndpointDescription& endpoint,
                                                    transport::ReaderEvents events) override {
     return std::make_unique<FastReader>(subscriber_in(endpoint.partitions), topic_of(endpoint), endpoint,
-                                        std::move(events));
+                                        std::move(events), slots_);
   }
 
   std::string announcement() const override { return announcement_; }
@@ -142,7 +148,7 @@ class FastTransport : public transport::Transport, public transport::RefusesData
     }
     if (topic) return *topic;
     if (!participant_->find_type(endpoint.type.name)) {
-      dds::TypeSupport(new BytesType(endpoint.type)).register_type(participant_);
+      dds::TypeSupport(new BytesType(endpoint.type, slots_)).register_type(participant_);
     }
     topic = participant_->create_topic(endpoint.topic, endpoint.type.name, dds::TOPIC_QOS_DEFAULT);
     if (!topic) throw transport::TransportError("Fast DDS refused the topic " + endpoint.topic);
@@ -162,6 +168,7 @@ class FastTransport : public transport::Transport, public transport::RefusesData
   const std::string announcement_;
   const bool secure_;
   const std::shared_ptr<guard::Guard> guard_;
+  const std::shared_ptr<KeySlots> slots_;
   Participants participants_;
   dds::DomainParticipant* participant_ = nullptr;
   std::mutex mutex_;

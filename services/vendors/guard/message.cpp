@@ -4,6 +4,7 @@
 #include <cstring>
 #include <vector>
 
+#include "services/vendors/guard/data.hpp"
 #include "services/vendors/guard/gaps.hpp"
 #include "services/vendors/guard/rtps_ids.hpp"
 #include "services/vendors/guard/submessages.hpp"
@@ -137,6 +138,19 @@ void for_each_submessage(std::span<const std::uint8_t> message,
     see(parsed(rest.first(size)));
     rest = rest.subspan(size);
   }
+}
+
+void for_each_key_hash(std::span<std::uint8_t> message,
+                       const std::function<void(std::span<std::uint8_t, 16>)>& see) {
+  for_each_submessage(message, [&](const Submessage& one) {
+    const bool data = one.id == kData || one.id == kDataFragment;
+    if (!data || (one.flags & kInlineQosFlag) == 0 || !is_of_user(one)) return;
+    const ByteView inline_qos = one.body.from(4 + std::size_t{one.body.u16(2)});
+    for_each_parameter(inline_qos, kKeyHash, [&](const ByteView& hash) {
+      const auto at = static_cast<std::size_t>(hash.bytes.data() - message.data());
+      see(message.subspan(at).first<16>());
+    });
+  });
 }
 
 std::size_t strip_submessages(

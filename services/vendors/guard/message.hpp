@@ -30,6 +30,10 @@ GuidPrefix sender_of(std::span<const std::uint8_t> message);
 void for_each_submessage(std::span<const std::uint8_t> message,
                          const std::function<void(const Submessage&)>& see);
 
+/// Calls `see` with each key hash of user data in a message that passed, where it stands: it may be changed there.
+void for_each_key_hash(std::span<std::uint8_t> message,
+                       const std::function<void(std::span<std::uint8_t, 16>)>& see);
+
 /// Takes out of a message that passed what `keep` does not keep, and returns the new length. It is told each submessage
 /// with its header, and taken apart.
 std::size_t strip_submessages(

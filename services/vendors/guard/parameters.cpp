@@ -88,14 +88,23 @@ ListAdmission examine_parameters(const ByteView& list, ListKind kind,
   }
 }
 
-std::optional<ByteView> find_parameter(const ByteView& list, std::uint16_t wanted) {
+void for_each_parameter(const ByteView& list, std::uint16_t wanted,
+                        const std::function<void(const ByteView&)>& see) {
   for (std::size_t at = 0;;) {
     const auto id = static_cast<std::uint16_t>(list.u16(at) & ~kMustUnderstand);
     const std::size_t length = list.u16(at + 2);
-    if (id == kSentinel) return std::nullopt;
-    if (id == wanted) return list.part(at + 4, length);
+    if (id == kSentinel) return;
+    if (id == wanted) see(list.part(at + 4, length));
     at += 4 + length;
   }
+}
+
+std::optional<ByteView> find_parameter(const ByteView& list, std::uint16_t wanted) {
+  std::optional<ByteView> first;
+  for_each_parameter(list, wanted, [&first](const ByteView& value) {
+    if (!first) first = value;
+  });
+  return first;
 }
 
 }  // namespace roci::services::vendors::guard

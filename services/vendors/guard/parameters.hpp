@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <optional>
 
 #include "services/vendors/guard/byte_view.hpp"
@@ -30,6 +31,9 @@ struct ListAdmission {
 /// in it must be of one for which that participant may speak.
 ListAdmission examine_parameters(const ByteView& list, ListKind,
                                  const std::optional<GuidPrefix>& only_guids_of);
+
+/// Calls `see` with the value of each parameter with this id in a list that passed examine_parameters().
+void for_each_parameter(const ByteView& list, std::uint16_t id, const std::function<void(const ByteView&)>& see);
 
 /// Returns the value of the first parameter with this id in a list that passed examine_parameters(), or nothing.
 std::optional<ByteView> find_parameter(const ByteView& list, std::uint16_t id);

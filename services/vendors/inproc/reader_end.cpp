@@ -109,7 +109,7 @@ void ReaderEnd::attach(const transport::Guid& writer) {
 void ReaderEnd::detach(const transport::Guid& writer) {
   const std::lock_guard lock(mutex_);
   if (closed_ || writers_.erase(writer) == 0) return;
-  for (auto& key_payload : instances_.writer_left(writer)) {
+  for (auto& [key, key_payload] : instances_.writer_left(writer)) {
     transport::Sample lost{transport::SampleKind::no_writers, std::move(key_payload), writer};
     enqueue(Arrived{std::move(lost), {}});
   }

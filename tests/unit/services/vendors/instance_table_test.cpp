@@ -49,7 +49,10 @@ TEST(InstanceTable, AgreesWithAModelUnderRandomLives) {
         it = orphaned ? model.erase(it) : std::next(it);
       }
       std::multiset<InstanceTable::Key> orphans;
-      for (const auto& payload : table.writer_left(who)) orphans.insert(key_of(payload));
+      for (const auto& orphan : table.writer_left(who)) {
+        EXPECT_EQ(orphan.key, key_of(orphan.key_payload));
+        orphans.insert(orphan.key);
+      }
       EXPECT_EQ(orphans, expected);
     }
   }
