@@ -26,7 +26,8 @@ class KeySlots {
   using KeyHash = std::array<std::uint8_t, 16>;
   using Handle = std::array<std::uint8_t, 16>;  ///< names a slot in the place of a key hash
 
-  static constexpr std::size_t kIdle = 16'384;  ///< slots that nobody holds, before the first of them is given anew
+  /// So many slots that nobody holds wait before the first of them is given anew.
+  static constexpr std::size_t kIdle = 16'384;
   static constexpr std::size_t kHeld = InstanceTable::kInstances;  ///< as many as one topic follows
   static constexpr std::size_t kSlots = kHeld + kIdle;
 

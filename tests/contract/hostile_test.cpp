@@ -223,6 +223,33 @@ TEST_P(Hostile, GapsTakeLittleMemoryOfAReader) {
   EXPECT_EQ(reader.finish(), 0);
 }
 
+TEST_P(Hostile, EndpointsThatAreAnnouncedTakeLittleMemoryOfAReader) {
+  constexpr int kEndpoints = 8'000;
+  ChildProcess reader(reader_command(GetParam(), domain_.id()));
+  ASSERT_TRUE(reader.wait_for("ready"));
+  hostile::Participant crowd(kLoopback, domain_.id(), hostile::kEprosima, 1, "");
+  crowd.announce();
+  expect_a_goal_to_arrive(reader);
+  const std::size_t before = peak_memory(reader.pid());
+  for (int i = 0; i < kEndpoints; ++i) crowd.add_writer({"topic " + std::to_string(i), "type", true, {}});
+  for (int i = 0; i < 3; ++i) crowd.announce();
+  expect_a_goal_to_arrive(reader);
+  EXPECT_LT(peak_memory(reader.pid()) - before, std::size_t{8} << 20);
+  EXPECT_EQ(reader.finish(), 0);
+}
+
+TEST_P(Hostile, SamplesBehindOneThatNeverComesTakeBoundedMemory) {
+  ChildProcess reader(reader_command(GetParam(), domain_.id()));
+  ASSERT_TRUE(reader.wait_for("ready"));
+  expect_a_goal_to_arrive(reader);
+  const std::size_t before = peak_memory(reader.pid());
+  ChildProcess writer(hostile_command("ahead", domain_.id()));
+  ASSERT_TRUE(writer.wait_for("round 50"));
+  expect_a_goal_to_arrive(reader);
+  EXPECT_LT(peak_memory(reader.pid()) - before, std::size_t{100} << 20);
+  EXPECT_EQ(reader.finish(), 0);
+}
+
 TEST_P(Hostile, HeartbeatsWithoutMeasureNeitherEndNorHoldAReader) {
   ChildProcess reader(reader_command(GetParam(), domain_.id()));
   ASSERT_TRUE(reader.wait_for("ready"));

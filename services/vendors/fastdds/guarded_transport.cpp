@@ -88,6 +88,7 @@ class GuardedTransport : public transports::ChainingTransport {
   bool send_plain(eprosima::fastrtps::rtps::SenderResource* sender, std::span<const octet> message,
                   transports::LocatorsIterator* begin, transports::LocatorsIterator* end,
                   const std::chrono::steady_clock::time_point& deadline) {
+    guard_->sent(message);
     std::vector<octet> other;
     {
       const std::lock_guard lock(mutex_);

@@ -71,7 +71,8 @@ void guard_transports(const std::shared_ptr<guard::Guard>& guard, dds::Transport
         std::make_shared<eprosima::fastdds::rtps::UDPv4TransportDescriptor>());
   }
   for (auto& descriptor : transport.user_transports)
-    if (dynamic_cast<UDPTransportDescriptor*>(descriptor.get())) descriptor = guarded(descriptor, guard, nullptr);
+    if (dynamic_cast<UDPTransportDescriptor*>(descriptor.get()))
+      descriptor = guarded(descriptor, guard, nullptr);
 }
 
 void set_history(const transport::QosSettings& settings, dds::HistoryQosPolicy& history,

@@ -35,7 +35,8 @@ void put_in_order(std::vector<Taken>& taken) {
   std::vector<Taken> ordered(taken.size());
   for (const auto& [writer, of_writer] : places) {
     auto written = of_writer;
-    std::ranges::sort(written, {}, [&](std::size_t i) { return taken[i].info.sample_identity.sequence_number(); });
+    std::ranges::sort(written, {},
+                      [&](std::size_t i) { return taken[i].info.sample_identity.sequence_number(); });
     for (std::size_t i = 0; i < written.size(); ++i) ordered[of_writer[i]] = std::move(taken[written[i]]);
   }
   taken = std::move(ordered);
@@ -95,7 +96,8 @@ void FastReader::take_value(Bytes&& bytes, const dds::SampleInfo& info) {
   if (events_.on_sample) events_.on_sample({transport::SampleKind::data, std::move(bytes.owned), writer});
 }
 
-void FastReader::follow(const InstanceTable::Key& key, const transport::Guid& writer, transport::Payload key_payload) {
+void FastReader::follow(const InstanceTable::Key& key, const transport::Guid& writer,
+                        transport::Payload key_payload) {
   if (slots_ && !slots_->hold(key)) return;
   if (!instances_.introduce(key, writer, std::move(key_payload))) release(key);
 }

@@ -43,6 +43,7 @@ dds::PartitionQosPolicy partition_qos(const std::vector<std::string>& partitions
 guard::Policy policy_of(const transport::TransportOptions& options) {
   guard::Policy policy = guard::policy_of(options);
   policy.without_farewells = true;
+  policy.bounds_ahead = true;
   return policy;
 }
 
@@ -66,9 +67,9 @@ class FastTransport : public transport::Transport, public transport::RefusesData
     constexpr int kAttempts = 5;
     for (int attempt = 0; attempt < kAttempts; ++attempt) {
       const std::uint16_t port = options.vendor_xml.empty() ? free_port(options.address) : 0;
-      participant_ = factory->create_participant(static_cast<std::uint32_t>(options.domain),
-                                                 participant_qos(options, guard_, slots_, port), &participants_,
-                                                 dds::StatusMask::none());
+      participant_ = factory->create_participant(
+          static_cast<std::uint32_t>(options.domain), participant_qos(options, guard_, slots_, port),
+          &participants_, dds::StatusMask::none());
       if (!participant_ || port == 0 || is_ours(port)) break;
       factory->delete_participant(participant_);
       participant_ = nullptr;

@@ -8,6 +8,9 @@
 namespace roci::services::vendors::guard {
 namespace {
 
+// Bytes of DATA and DATA_FRAG up to the inline QoS.
+constexpr std::size_t kFixedOfData = 20, kFixedOfFragment = 32;
+
 bool is_of_user(const ByteView& entity_id) { return (entity_id.bytes[3] & 0xc0) != 0xc0; }
 
 // What each GUID-keyed writer of discovery and liveliness tells of (RTPS 2.3, 9.3.1.3; DDS Security 1.1, 7.3.7.1).
@@ -57,13 +60,15 @@ Parts split(const Submessage& message, std::size_t fixed, const GuidPrefix& send
   return parts;
 }
 
-// A parameter list behind its encapsulation header. A bare key of 16 bytes would be taken for the GUID that it holds.
-DatagramAdmission discovery_payload(const ByteView& payload, const GuidPrefix& sender) {
+// A parameter list behind its encapsulation header. A participant says how long its lease is: what vendors take for a
+// default lasts for ever. A bare key of 16 bytes would be taken for the GUID that it holds.
+DatagramAdmission discovery_payload(const ByteView& payload, const GuidPrefix& sender, bool has_lease) {
   const bool big = payload.bytes[1] == 2, little = payload.bytes[1] == 3;
   if (payload.bytes[0] != 0 || (!big && !little)) return DatagramAdmission::bad_parameters;
   const ByteView list{payload.bytes.subspan(4), little};
   const auto judged = examine_parameters(list, ListKind::discovery, sender);
   if (judged.admission != DatagramAdmission::pass) return judged.admission;
+  if (has_lease && !find_parameter(list, kLease)) return DatagramAdmission::bad_parameters;
   return payload.size() > 16 ? DatagramAdmission::pass : DatagramAdmission::bad_parameters;
 }
 
@@ -78,22 +83,39 @@ DatagramAdmission liveliness_payload(const ByteView& payload, const GuidPrefix& 
 
 bool is_of_user(const Submessage& message) { return is_of_user(message.body.part(8, 4)); }
 
+ByteView payload_of(const Submessage& message) {
+  const std::size_t fixed = message.id == kData ? kFixedOfData : kFixedOfFragment;
+  const ByteView& body = message.body;
+  if (body.size() < fixed) return {};
+  const std::size_t offset = 4 + std::size_t{body.u16(2)};
+  if (offset < fixed || offset > body.size()) return {};
+  ByteView rest = body.from(offset);
+  const bool inline_qos = (message.flags & kInlineQosFlag) != 0;
+  if (inline_qos) {
+    const auto list = examine_parameters(rest, ListKind::inline_qos, std::nullopt);
+    if (list.admission != DatagramAdmission::pass) return {};
+    rest = rest.from(list.size);
+  }
+  if (rest.size() < 4) return {};
+  const bool little = (rest.bytes[1] & 1) != 0;
+  return {rest.bytes.subspan(4), little};
+}
+
 DatagramAdmission examine_data(const Submessage& message, const GuidPrefix& sender) {
-  constexpr std::size_t kFixed = 20;
   const bool data = (message.flags & kDataFlag) != 0, key = (message.flags & kKeyFlag) != 0;
   if (data && key) return DatagramAdmission::cut;
-  const Parts parts = split(message, kFixed, sender);
+  const Parts parts = split(message, kFixedOfData, sender);
   if (parts.admission != DatagramAdmission::pass) return parts.admission;
   if (!data && !key) return DatagramAdmission::pass;
   if (parts.payload.size() < 4) return DatagramAdmission::cut;
-  if (parts.writer == WriterKind::discovery) return discovery_payload(parts.payload, sender);
+  const bool has_lease = data && ByteView{message.body.part(8, 4).bytes, false}.u32(0) == kParticipants;
+  if (parts.writer == WriterKind::discovery) return discovery_payload(parts.payload, sender, has_lease);
   if (parts.writer == WriterKind::liveliness) return liveliness_payload(parts.payload, sender);
   return DatagramAdmission::pass;
 }
 
 DatagramAdmission examine_data_fragment(const Submessage& message, const GuidPrefix& sender) {
-  constexpr std::size_t kFixed = 32;
-  const Parts parts = split(message, kFixed, sender);
+  const Parts parts = split(message, kFixedOfFragment, sender);
   if (parts.admission != DatagramAdmission::pass) return parts.admission;
   // Discovery fits into one datagram; in pieces it could not be judged.
   if (parts.writer == WriterKind::discovery || parts.writer == WriterKind::liveliness)

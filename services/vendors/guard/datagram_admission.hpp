@@ -21,11 +21,12 @@ enum class DatagramAdmission : std::uint8_t {
   bad_parameters,      ///< A parameter list, or a known parameter in one, that does not fit into its bytes.
   speaks_for_another,  ///< Its discovery data or INFO_SRC names the GUID of a participant that is not its sender.
   taken_identity,  ///< Its GUID prefix names another port, or was heard from another address or port first.
-  crowd,           ///< A new GUID prefix from an address or port that has as many as are allowed.
+  crowd,  ///< A new GUID prefix from an address or port, or a new endpoint, where there are as many as are allowed.
+  too_far_ahead,  ///< Data that came before one that is missing, beyond ahead.hpp; one sample each.
   plain,           ///< In a secure run: nothing in it is encrypted that must be. It is counted, and not told.
 };
 
-inline constexpr std::array<std::string_view, 13> kAdmissionNames{"pass",
+inline constexpr std::array<std::string_view, 14> kAdmissionNames{"pass",
                                                                   "stranger",
                                                                   "no_rtps",
                                                                   "cut",
@@ -37,6 +38,7 @@ inline constexpr std::array<std::string_view, 13> kAdmissionNames{"pass",
                                                                   "speaks_for_another",
                                                                   "taken_identity",
                                                                   "crowd",
+                                                                  "too_far_ahead",
                                                                   "plain"};
 inline constexpr std::size_t kAdmissions = kAdmissionNames.size();
 

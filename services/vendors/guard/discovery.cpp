@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string_view>
 
+#include "services/vendors/guard/data.hpp"
 #include "services/vendors/guard/message.hpp"
 #include "services/vendors/guard/rtps_ids.hpp"
 #include "services/vendors/guard/submessages.hpp"
@@ -10,32 +11,13 @@
 namespace roci::services::vendors::guard {
 namespace {
 
-// The payload of a sample or of its first fragment behind the encapsulation,
-// in its own byte order; empty: there is none.
-ByteView payload_of(const Submessage& message, std::size_t fixed) {
-  const ByteView& body = message.body;
-  if (body.size() < fixed) return {};
-  const std::size_t offset = 4 + std::size_t{body.u16(2)};
-  if (offset < fixed || offset > body.size()) return {};
-  ByteView rest = body.from(offset);
-  const bool inline_qos = (message.flags & kInlineQosFlag) != 0;
-  if (inline_qos) {
-    const auto list = examine_parameters(rest, ListKind::inline_qos, std::nullopt);
-    if (list.admission != DatagramAdmission::pass) return {};
-    rest = rest.from(list.size);
-  }
-  if (rest.size() < 4) return {};
-  const bool little = (rest.bytes[1] & 1) != 0;
-  return {rest.bytes.subspan(4), little};
-}
-
 // Calls `see` with the payload of each sample of this writer.
 template <class See>
 void for_each_sample(std::span<const std::uint8_t> message, std::uint32_t writer, See see) {
   for_each_submessage(message, [&](const Submessage& one) {
     if ((one.id != kData && one.id != kDataFragment) || one.body.size() < 12) return;
     if (ByteView{one.body.part(8, 4).bytes, false}.u32(0) != writer) return;
-    const ByteView payload = payload_of(one, one.id == kData ? 20 : 32);
+    const ByteView payload = payload_of(one);
     if (payload.size() > 0) see(payload);
   });
 }

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <iostream>
 
+#include "services/vendors/guard/endpoints.hpp"
 #include "services/vendors/guard/rtps_ids.hpp"
 #include "services/vendors/peers.hpp"
 
@@ -42,15 +43,29 @@ std::size_t Guard::admit(std::span<std::uint8_t> datagram, const std::optional<S
   const DatagramAdmission admission = judge(datagram, source);
   if (admission == DatagramAdmission::pass) {
     std::size_t left = strip_vendor_submessages(datagram);
+    limit_leases(datagram.first(left));
     if (policy_.without_farewells) left = strip_farewells(datagram.first(left));
+    if (policy_.bounds_ahead && !policy_.secure) left = admit_ahead(datagram.first(left), source);
     if (policy_.secure) left = admit_secure(datagram.first(left));
-    ++counts_[static_cast<std::size_t>(left > 0 ? DatagramAdmission::pass : DatagramAdmission::plain)];
+    if (left > 0) ++counts_[static_cast<std::size_t>(DatagramAdmission::pass)];
+    if (left == 0 && policy_.secure) ++counts_[static_cast<std::size_t>(DatagramAdmission::plain)];
     return left;
   }
-  ++counts_[static_cast<std::size_t>(admission)];
-  last_sources_[static_cast<std::size_t>(admission)] = source;
-  report(admission, source);
+  refuse(admission, 1, source);
   return 0;
+}
+
+void Guard::refuse(DatagramAdmission why, std::size_t times, const std::optional<Source>& source) {
+  counts_[static_cast<std::size_t>(why)] += times;
+  last_sources_[static_cast<std::size_t>(why)] = source;
+  report(why, source);
+}
+
+std::size_t Guard::admit_ahead(std::span<std::uint8_t> message, const std::optional<Source>& source) {
+  std::size_t refused = 0;
+  const std::size_t left = ahead_.take(message, refused);
+  if (refused > 0) refuse(DatagramAdmission::too_far_ahead, refused, source);
+  return left;
 }
 
 // What is left of a message of a secure run.
@@ -67,6 +82,12 @@ std::size_t Guard::admit_secure(std::span<std::uint8_t> message) {
   return partings_.is_deaf_to(sender_of(message), now) ? 0 : left;
 }
 
+void Guard::sent(std::span<const std::uint8_t> datagram) {
+  if (!policy_.bounds_ahead) return;
+  const std::lock_guard lock(mutex_);
+  ahead_.acknowledge(datagram);
+}
+
 bool Guard::keeps_back(std::span<const std::uint8_t> datagram, const Source& destination) {
   if (!policy_.secure || datagram.size() <= kHeaderSize) return false;
   const bool encrypted = datagram[kHeaderSize] == kSrtpsPrefix;
@@ -78,7 +99,10 @@ bool Guard::keeps_back(std::span<const std::uint8_t> datagram, const Source& des
 }
 
 void Guard::gave_up(const GuidPrefix& other) {
-  if (!policy_.secure) return;
+  if (!policy_.secure) {
+    const std::lock_guard lock(mutex_);
+    return ahead_.gave_up(other);
+  }
   const std::lock_guard lock(partings_mutex_);
   partings_.gave_up(other, std::chrono::steady_clock::now());
 }
@@ -101,6 +125,7 @@ DatagramAdmission Guard::judge(std::span<const std::uint8_t> datagram, const std
   const auto now = std::chrono::steady_clock::now();
   const DatagramAdmission claimed = identities_.claim(sender_of(datagram), *source, now);
   if (claimed != DatagramAdmission::pass) return claimed;
+  if (!identities_.announce(sender_of(datagram), endpoints_in(datagram), now)) return DatagramAdmission::crowd;
   const bool may_skip = gap_budget_.take(*source, sender_of(datagram), skipped, now);
   return may_skip ? DatagramAdmission::pass : DatagramAdmission::bad_numbers;
 }

@@ -11,6 +11,7 @@
 
 #include "services/transport/refused_datagrams.hpp"
 #include "services/transport/transport.hpp"
+#include "services/vendors/guard/ahead.hpp"
 #include "services/vendors/guard/gaps.hpp"
 #include "services/vendors/guard/identities.hpp"
 #include "services/vendors/guard/message.hpp"
@@ -28,6 +29,8 @@ struct Policy {
   bool secure = false;
   /// Says that no farewell of a participant is let through, so that each is given up when its lease is over.
   bool without_farewells = false;
+  /// Says that samples which came before one that is missing are bounded (ahead.hpp), in a plain run.
+  bool bounds_ahead = false;
 };
 
 /// Returns the policy that takes the peers of these options (peers_of), this host among them; with vendor_xml
@@ -45,10 +48,12 @@ class Guard {
   std::size_t admit(std::span<std::uint8_t> datagram, const std::optional<Source>& source);
 
   bool is_secure() const { return policy_.secure; }
+  /// Takes in what this process sends in a plain run.
+  void sent(std::span<const std::uint8_t> datagram);
   /// Takes in, in a secure run, what this process sends, and returns whether nothing may be sent to this
   /// destination now (partings.hpp).
   bool keeps_back(std::span<const std::uint8_t> datagram, const Source& destination);
-  /// Takes in, in a secure run, that the vendor has given this participant up.
+  /// Takes in that the vendor has given this participant up.
   void gave_up(const GuidPrefix&);
 
   /// How many datagrams had each admission.
@@ -59,6 +64,8 @@ class Guard {
  private:
   DatagramAdmission judge(std::span<const std::uint8_t> datagram, const std::optional<Source>&);
   std::size_t admit_secure(std::span<std::uint8_t> message);
+  std::size_t admit_ahead(std::span<std::uint8_t> message, const std::optional<Source>&);
+  void refuse(DatagramAdmission, std::size_t times, const std::optional<Source>&);
   void report(DatagramAdmission, const std::optional<Source>&);
   static void tell_of_parting();
 
@@ -66,6 +73,7 @@ class Guard {
   mutable std::mutex mutex_;
   Identities identities_;
   GapBudget gap_budget_;
+  SamplesAhead ahead_;
   std::array<std::uint64_t, kAdmissions> counts_{};
   std::array<std::optional<Source>, kAdmissions> last_sources_{};
   std::array<std::uint64_t, kAdmissions> reported_{};

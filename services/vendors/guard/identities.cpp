@@ -45,15 +45,47 @@ bool Identities::make_room(const Source& source, Time now) {
            (host != of_address_.end() && host->second >= kPerAddress);
   };
   if (!full()) return true;
+  forget_silent(source.address, now);
+  return !full();
+}
+
+bool Identities::announce(const GuidPrefix& prefix, const std::vector<EndpointWord>& words, Time now) {
+  if (words.empty()) return true;
+  Owner& owner = owners_.at(prefix);
+  for (const EndpointWord& word : words) {
+    std::int64_t& newest = owner.newest[word.writer];
+    const bool new_word = word.number > newest;
+    newest = std::max(newest, word.number);
+    if (!word.ended) {
+      if (!add_endpoint(owner, word, now)) return false;
+    } else if (new_word && owner.endpoints.erase(word.guid) > 0) {
+      --endpoints_of_address_[owner.source.address];
+    }
+  }
+  return true;
+}
+
+bool Identities::add_endpoint(Owner& owner, const EndpointWord& word, Time now) {
+  if (owner.endpoints.contains(word.guid)) return true;
+  if (owner.endpoints.size() >= kEndpoints) return false;
+  std::size_t& together = endpoints_of_address_[owner.source.address];
+  if (together >= kEndpointsPerAddress) forget_silent(owner.source.address, now);
+  if (together >= kEndpointsPerAddress) return false;
+  owner.endpoints.insert(word.guid);
+  ++together;
+  return true;
+}
+
+void Identities::forget_silent(std::uint32_t address, Time now) {
   std::vector<GuidPrefix> silent;
   for (const auto& [prefix, owner] : owners_)
-    if (owner.source.address == source.address && now - owner.heard > kSilent) silent.push_back(prefix);
+    if (owner.source.address == address && now - owner.heard > kSilent) silent.push_back(prefix);
   for (const GuidPrefix& prefix : silent) forget(prefix);
-  return !full();
 }
 
 void Identities::forget(const GuidPrefix& prefix) {
   const Source source = owners_.at(prefix).source;
+  endpoints_of_address_[source.address] -= owners_.at(prefix).endpoints.size();
   owners_.erase(prefix);
   if (--of_source_[source] == 0) of_source_.erase(source);
   if (--of_address_[source.address] == 0) of_address_.erase(source.address);

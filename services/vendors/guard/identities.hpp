@@ -8,9 +8,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <set>
 #include <unordered_map>
+#include <vector>
 
 #include "services/vendors/guard/datagram_admission.hpp"
+#include "services/vendors/guard/endpoints.hpp"
 #include "services/vendors/guard/parameters.hpp"
 
 namespace roci::services::vendors::guard {
@@ -33,9 +36,11 @@ class Identities {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
-  static constexpr std::size_t kPerAddress = 256;     ///< six times the participants that a host may have
-  static constexpr std::size_t kPerSource = 64;       ///< participants of one process may share a socket
-  static constexpr std::chrono::seconds kSilent{10};  ///< three leases: the vendor has given it up
+  static constexpr std::size_t kPerAddress = 512;  ///< twelve times the participants that a host may have
+  static constexpr std::size_t kPerSource = 64;    ///< participants of one process may share a socket
+  /// Bounds the endpoints that one participant announces (a service of ours has some 25), and those of an address.
+  static constexpr std::size_t kEndpoints = 1024, kEndpointsPerAddress = 8192;
+  static constexpr std::chrono::seconds kSilent{kLongestLease + 1};  ///< the vendor has given it up
 
   /// Expects, in a secure run, prefixes that come of certificates and name the port in their seventh and
   /// eighth byte (certificate/guid_prefix.hpp), and refuses others; in a plain run our prefixes name it in
@@ -45,6 +50,10 @@ class Identities {
   /// pass, taken_identity or crowd.
   DatagramAdmission claim(const GuidPrefix&, const Source&, Time now);
 
+  /// Takes in what a participant that has its claim says of its endpoints, or returns false if it says too much. An end
+  /// counts if it is newer than all that was said before: others a vendor passes over.
+  bool announce(const GuidPrefix&, const std::vector<EndpointWord>&, Time now);
+
  private:
   struct HashPrefix {
     std::size_t operator()(const GuidPrefix&) const;
@@ -52,16 +61,21 @@ class Identities {
   struct Owner {
     Source source;
     Time heard;
+    std::set<std::array<std::uint8_t, 16>> endpoints{};
+    std::map<std::uint32_t, std::int64_t> newest{};  // by writer of discovery, the number of its sample
   };
 
   bool is_borrowed(const GuidPrefix&, const Source&) const;
   bool make_room(const Source&, Time now);
+  bool add_endpoint(Owner&, const EndpointWord&, Time now);
+  void forget_silent(std::uint32_t address, Time now);
   void forget(const GuidPrefix&);
 
   bool secure_;
   std::unordered_map<GuidPrefix, Owner, HashPrefix> owners_;
   std::map<Source, std::size_t> of_source_;
   std::map<std::uint32_t, std::size_t> of_address_;
+  std::map<std::uint32_t, std::size_t> endpoints_of_address_;
 };
 
 }  // namespace roci::services::vendors::guard

@@ -50,6 +50,7 @@ bool fits(std::uint16_t id, const ByteView& value, ListKind kind) {
   if (kind == ListKind::inline_qos) return true;
   std::size_t at = 0;
   if (names_guid(id)) return value.size() == 16;
+  if (id == kLease) return value.size() == 8;
   if (is_locator(id)) return value.size() == 24;
   if (is_string(id) || is_octets(id)) return skip_counted(value, at);
   if (id == kPartition) return holds_strings(value, 1);

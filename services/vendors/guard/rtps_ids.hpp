@@ -53,6 +53,7 @@ inline constexpr std::uint32_t kSecureLiveliness = 0xff0200c2;
 inline constexpr std::uint16_t kMustUnderstand = 0x4000;
 inline constexpr std::uint16_t kPadding = 0x0000;
 inline constexpr std::uint16_t kSentinel = 0x0001;
+inline constexpr std::uint16_t kLease = 0x0002;  ///< of a participant
 inline constexpr std::uint16_t kTopicName = 0x0005;
 inline constexpr std::uint16_t kTypeName = 0x0007;
 inline constexpr std::uint16_t kPartition = 0x0029;

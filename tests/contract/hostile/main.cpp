@@ -3,6 +3,7 @@
 //   writers            on loopback, a writer on every topic, all of whose samples are malformed, again and again
 //   goals ADDRESS ID   a writer on roci/goal that writes the goal stranger/ID well-formed to the host with that address
 //   gaps               on loopback, two writers on roci/goal, whose GAPs skip 2^18 numbers each, always further ones
+//   ahead              on loopback, a writer on roci/goal that never says its first sample, but always further ones
 //   inject SEED COUNT  on loopback, mutants of the traffic that it hears and forged datagrams, COUNT at least
 // Standard output, one line each: ready | round N (all was sent N times) | sent COUNT SEED.
 #include <poll.h>
@@ -119,6 +120,25 @@ void skip_numbers(int domain) {
   }
 }
 
+// A reader of Fast DDS keeps each of these samples, since it still waits for the first one.
+void run_ahead(int domain) {
+  constexpr int kSamplesOfRound = 60;
+  Participant one(kLoopback, domain, kEprosima, 1, transport::own_announcement());
+  const Entity writer = one.add_writer(
+      {topics::goal.name, topics::goal.type_name, true, transport::partitions_of(topics::goal.scope, "")});
+  std::int64_t next = 2;
+  for (int round = 0; wait_a_moment(); ++round) {
+    one.announce();
+    for (int i = 0; i < kSamplesOfRound && round > 5; ++i) {
+      v1::Goal goal;
+      goal.issuer("stranger");
+      goal.id(std::to_string(next) + std::string(60'000, 'x'));
+      one.send_to_readers(one.message().data(0, writer, next++, kData, {}, transport::serialize(goal)));
+    }
+    say("round " + std::to_string(round));
+  }
+}
+
 // A reader of Fast DDS aborts on a last number without measure, and walks to a first one.
 void begin_late(int domain) {
   constexpr std::int64_t kLast = std::numeric_limits<std::int64_t>::max(), kFar = std::int64_t{1} << 40;
@@ -147,6 +167,7 @@ void run(const std::vector<std::string>& words) {
   say("ready");
   if (words[0] == "writers") return Attackers(kLoopback, domain).run();
   if (words[0] == "gaps") return skip_numbers(domain);
+  if (words[0] == "ahead") return run_ahead(domain);
   if (words[0] == "starts") return begin_late(domain);
   if (words.size() != 4) throw std::invalid_argument("unknown role " + words[0]);
   if (words[0] == "goals") return write_goals(address_of(words[2]), domain, words[3]);

@@ -24,6 +24,7 @@ using contract::hostile::Prefix;
 constexpr Prefix kOwn{1, 15, 1}, kOther{1, 15, 2};
 constexpr std::uint32_t kUserWriter = 0x00000102, kParticipants = 0x000100c2, kLiveliness = 0x000200c2;
 const Bytes kPayload{0, 1, 0, 0, 1, 2, 3, 4};
+const Bytes kLease{3, 0, 0, 0, 0, 0, 0, 0};  // of 3 s
 
 Message own() { return {kOwn, kEprosima}; }
 DatagramAdmission judge(const Message& message) { return examine(message.bytes()); }
@@ -307,7 +308,9 @@ TEST(Guard, FragmentsLieWithinTheirSampleAndAreThere) {
 
 TEST(Guard, ASenderSpeaksInDiscoveryForItselfAlone) {
   constexpr std::uint32_t kWho = 0x000001c1;
-  const auto told = [](const Prefix& whose) { return Parameters().add_guid(0x50, whose, kWho).sample(); };
+  const auto told = [](const Prefix& whose) {
+    return Parameters().add_guid(0x50, whose, kWho).add(2, kLease).sample();
+  };
   const auto hash = [](const Prefix& whose) { return Parameters().add_guid(0x70, whose, kWho).list(); };
   const auto discovery = [](std::uint8_t flags, const Bytes& qos, const Bytes& payload) {
     return judge(own().data(0, kParticipants, 1, flags, qos, payload));
@@ -332,15 +335,17 @@ TEST(Guard, ParticipantsOfOneCycloneProcessSpeakForEachOther) {
   const Prefix first{'R', 'o', 1, 2, 3}, second{'R', 'o', 1, 2, 4}, elsewhere{'R', 'o', 1, 3, 4};
   const auto says = [&](const Prefix& of) {
     return judge(Message(first, kEclipse)
-                     .data(0, kParticipants, 1, kData, {}, Parameters().add_guid(0x50, of, 0x1c1).sample()));
+                     .data(0, kParticipants, 1, kData, {},
+                           Parameters().add_guid(0x50, of, 0x1c1).add(2, kLease).sample()));
   };
   EXPECT_EQ(says(second), DatagramAdmission::pass);
   EXPECT_EQ(says(elsewhere), DatagramAdmission::speaks_for_another);
 }
 
 TEST(Guard, DiscoveryWhoseTextsDoNotFitIsRefused) {
+  constexpr std::uint32_t kWriters = 0x000003c2;
   const auto discovery = [](const Parameters& parameters) {
-    return judge(own().data(0, kParticipants, 1, kData, {}, parameters.sample()));
+    return judge(own().data(0, kWriters, 1, kData, {}, parameters.sample()));
   };
   EXPECT_EQ(discovery(Parameters().add_string(5, "roci/goal").add_strings(0x29, {"a", "b"})),
             DatagramAdmission::pass);
@@ -371,7 +376,7 @@ TEST(Guard, AFarewellIsTakenOutOfItsMessage) {
   constexpr std::uint32_t kReader = 0x000100c7, kParticipant = 0x000001c1;
   const Bytes gone = Parameters().add_guid(0x0070, kOwn, kParticipant).add(0x0071, {0, 0, 0, 3}).list();
   const Bytes alive = Parameters().add(0x0071, {0, 0, 0, 0}).list();
-  const Bytes name = Parameters().add_guid(0x0050, kOwn, kParticipant).sample();
+  const Bytes name = Parameters().add_guid(0x0050, kOwn, kParticipant).add(2, kLease).sample();
   const auto stripped = [](const Message& message) {
     Bytes bytes = message.bytes();
     EXPECT_EQ(examine(bytes), DatagramAdmission::pass);
@@ -454,13 +459,94 @@ TEST(Identities, ACrowdMakesNobodyForgotten) {
   EXPECT_EQ(admitted, Identities::kPerAddress - 1);
   EXPECT_EQ(identities.claim(kOther, {1, 99}, kStart), DatagramAdmission::crowd);
   EXPECT_EQ(identities.claim(kOther, {2, 99}, kStart), DatagramAdmission::pass) << "another host";
-  EXPECT_EQ(identities.claim(kOwn, {1, 10}, kStart + std::chrono::seconds(9)), DatagramAdmission::pass);
-  EXPECT_EQ(identities.claim(kOther, {2, 99}, kStart + std::chrono::seconds(9)), DatagramAdmission::pass);
-  EXPECT_EQ(identities.claim(prefix(9999), {1, 99}, kStart + std::chrono::seconds(11)),
+  EXPECT_EQ(identities.claim(kOwn, {1, 10}, kStart + Identities::kSilent), DatagramAdmission::pass);
+  EXPECT_EQ(identities.claim(kOther, {2, 99}, kStart + Identities::kSilent), DatagramAdmission::pass);
+  EXPECT_EQ(identities.claim(prefix(9999), {1, 99}, kStart + Identities::kSilent + std::chrono::seconds(1)),
             DatagramAdmission::pass)
       << "the crowd is silent";
-  EXPECT_EQ(identities.claim(kOwn, {1, 11}, kStart + std::chrono::seconds(11)),
+  EXPECT_EQ(identities.claim(kOwn, {1, 11}, kStart + Identities::kSilent + std::chrono::seconds(1)),
             DatagramAdmission::taken_identity);
+}
+
+EndpointWord endpoint(std::uint32_t number, std::uint32_t of = 0) {
+  EndpointWord word{{}, 0x000003c2, number + 1, false};
+  for (std::size_t i = 0; i < 4; ++i) word.guid[i] = static_cast<std::uint8_t>(number >> 8 * i);
+  for (std::size_t i = 0; i < 4; ++i) word.guid[4 + i] = static_cast<std::uint8_t>(of >> 8 * i);
+  return word;
+}
+
+TEST(Identities, AParticipantHasNotAnyNumberOfEndpoints) {
+  Identities identities;
+  ASSERT_EQ(identities.claim(kOwn, {1, 10}, kStart), DatagramAdmission::pass);
+  for (std::uint32_t i = 0; i < Identities::kEndpoints; ++i)
+    ASSERT_TRUE(identities.announce(kOwn, {endpoint(i)}, kStart));
+  EXPECT_TRUE(identities.announce(kOwn, {endpoint(7)}, kStart)) << "it is known";
+  EXPECT_FALSE(identities.announce(kOwn, {endpoint(5000)}, kStart));
+  // Ends make room if a vendor takes them for new.
+  auto end = endpoint(3);
+  end.ended = true;
+  EXPECT_TRUE(identities.announce(kOwn, {end}, kStart)) << "an old word";
+  EXPECT_FALSE(identities.announce(kOwn, {endpoint(5000)}, kStart));
+  end.number = 6000;
+  EXPECT_TRUE(identities.announce(kOwn, {end}, kStart));
+  EXPECT_TRUE(identities.announce(kOwn, {endpoint(5000)}, kStart));
+}
+
+TEST(Identities, TheEndpointsOfAnAddressAreBoundedTogether) {
+  Identities identities;
+  std::size_t admitted = 0;
+  constexpr std::uint32_t kParticipantsOfIt = 20;
+  for (std::uint32_t p = 0; p < kParticipantsOfIt; ++p) {
+    ASSERT_EQ(identities.claim(prefix(p), {1, static_cast<std::uint16_t>(p)}, kStart), DatagramAdmission::pass);
+    for (std::uint32_t i = 0; i < Identities::kEndpoints; ++i)
+      admitted += identities.announce(prefix(p), {endpoint(i, p)}, kStart) ? 1 : 0;
+  }
+  EXPECT_EQ(admitted, Identities::kEndpointsPerAddress);
+  ASSERT_EQ(identities.claim(kOther, {2, 99}, kStart), DatagramAdmission::pass);
+  EXPECT_TRUE(identities.announce(kOther, {endpoint(0, 99)}, kStart)) << "another host";
+  const auto later = kStart + Identities::kSilent + std::chrono::seconds(1);
+  ASSERT_EQ(identities.claim(prefix(0), {1, 0}, later), DatagramAdmission::pass);
+  ASSERT_EQ(identities.claim(prefix(1), {1, 1}, later), DatagramAdmission::pass);
+  EXPECT_TRUE(identities.announce(prefix(1), {endpoint(0, 1)}, later)) << "who was silent has been forgotten";
+}
+
+TEST(Guard, ReadsWhatIsSaidOfEndpoints) {
+  constexpr std::uint32_t kWriters = 0x000003c2, kReaders = 0x000004c2;
+  const Bytes named = Parameters().add_guid(0x5a, kOwn, 0x102).sample();
+  const Bytes gone = Parameters().add_guid(0x70, kOwn, 0x107).add(0x71, {0, 0, 0, 3}).list();
+  const auto words = endpoints_in(own()
+                                      .data(0, kWriters, 4, kData, {}, named)
+                                      .data(0, kReaders, 5, kInlineQos, gone, {})
+                                      .data(0, kUserWriter, 6, kData, {}, kPayload)
+                                      .data(0, kParticipants, 7, kInlineQos, gone, {})
+                                      .bytes());
+  ASSERT_EQ(words.size(), 2U);
+  EXPECT_TRUE(std::equal(kOwn.begin(), kOwn.end(), words[0].guid.begin()));
+  EXPECT_EQ(words[0].writer, kWriters);
+  EXPECT_EQ(words[0].number, 4);
+  EXPECT_FALSE(words[0].ended);
+  EXPECT_EQ(words[1].writer, kReaders);
+  EXPECT_EQ(words[1].number, 5);
+  EXPECT_TRUE(words[1].ended);
+}
+
+TEST(Guard, NoParticipantIsWaitedForLongerThanTheLongestLease) {
+  const auto said = [](const Bytes& lease) {
+    return own().data(0, kParticipants, 1, kData, {}, Parameters().add_guid(0x50, kOwn, 0x1c1).add(2, lease).sample());
+  };
+  const auto after = [&](const Bytes& lease) {
+    Guard guard({.peers = {0x7f000001}});
+    Bytes message = said(lease).bytes();
+    EXPECT_EQ(guard.admit(message, Source{0x7f000001, 7400}), message.size());
+    return message;
+  };
+  EXPECT_EQ(after(kLease), said(kLease).bytes());
+  const Bytes longest{kLongestLease, 0, 0, 0, 0, 0, 0, 0};
+  EXPECT_EQ(after({100, 0, 0, 0, 0, 0, 0, 0}), said(longest).bytes());
+  EXPECT_EQ(after({0xff, 0xff, 0xff, 0x7f, 0xff, 0xff, 0xff, 0xff}), said(longest).bytes()) << "for ever";
+  EXPECT_EQ(judge(own().data(0, kParticipants, 1, kData, {}, Parameters().add_guid(0x50, kOwn, 0x1c1).sample())),
+            DatagramAdmission::bad_parameters)
+      << "vendors would wait for ever";
 }
 
 TEST(Identities, OneSocketHasNotManyNames) {
