@@ -5,7 +5,9 @@
 #include <memory>
 #include <random>
 
+#include "services/vendors/guard/ahead.hpp"
 #include "services/vendors/guard/assembly.hpp"
+#include "services/vendors/guard/endpoints.hpp"
 #include "services/vendors/guard/message.hpp"
 #include "tests/contract/hostile/rtps_message.hpp"
 #include "tests/fuzz/rounds.hpp"
@@ -22,8 +24,12 @@ using services::contract::hostile::Parameters;
 using services::contract::hostile::Prefix;
 using services::vendors::guard::Assembly;
 using services::vendors::guard::DatagramAdmission;
+using services::vendors::guard::endpoints_in;
 using services::vendors::guard::examine;
+using services::vendors::guard::for_each_key_hash;
 using services::vendors::guard::kAdmissions;
+using services::vendors::guard::limit_leases;
+using services::vendors::guard::SamplesAhead;
 using services::vendors::guard::strip_farewells;
 using services::vendors::guard::strip_vendor_submessages;
 
@@ -37,6 +43,7 @@ std::vector<Bytes> seeds() {
       guid_hash = Parameters().add_guid(0x70, kOwn, 0x1c1).add(0x71, {0, 0, 0, 1}).list();
   const Bytes participant = Parameters()
                                 .add_guid(0x50, kOwn, 0x1c1)
+                                .add(2, {0xff, 0xff, 0xff, 0x7f, 0, 0, 0, 0})
                                 .add_locator(0x32, 0x7f000001, 7410)
                                 .add(0x2c, {4, 0, 0, 0, 'r', 'o', 'c', 'i'})
                                 .add(0x59, {1, 0, 0, 0, 2, 0, 0, 0, 'a', 0, 0, 0, 2, 0, 0, 0, 'b', 0})
@@ -91,7 +98,8 @@ TEST(FuzzGuard, MutatedMessagesAreJudgedWithinTheirBytes) {
   constexpr std::uint16_t kNobody = 0;  // so that all fragments are put together
   std::array<int, kAdmissions> seen{};
   Assembly assembly;
-  int completed = 0, requested = 0;
+  SamplesAhead ahead;
+  int completed = 0, requested = 0, hashes = 0, endpoints = 0;
   for (int i = 0; i < rounds(100'000); ++i) {
     const Bytes mutant = mutator.mutate(corpus[mutator.below(corpus.size())]);
     const auto exact = std::make_unique<std::uint8_t[]>(mutant.size());
@@ -106,6 +114,19 @@ TEST(FuzzGuard, MutatedMessagesAreJudgedWithinTheirBytes) {
     const std::size_t left = strip_farewells(datagram.first(size));
     ASSERT_LE(left, size);
     ASSERT_EQ(examine(datagram.first(left)), DatagramAdmission::pass) << "round " << i;
+    limit_leases(datagram.first(left));
+    for_each_key_hash(datagram.first(left), [&hashes](std::span<std::uint8_t, 16> hash) {
+      std::ranges::fill(hash, std::uint8_t{7});
+      ++hashes;
+    });
+    endpoints += static_cast<int>(endpoints_in(datagram.first(left)).size());
+    ASSERT_EQ(examine(datagram.first(left)), DatagramAdmission::pass) << "round " << i;
+    ahead.acknowledge(datagram.first(left));
+    Bytes in_turn(datagram.begin(), datagram.begin() + static_cast<std::ptrdiff_t>(left));
+    std::size_t refused = 0;
+    in_turn.resize(ahead.take(in_turn, refused));
+    ASSERT_TRUE(in_turn.empty() || examine(in_turn) == DatagramAdmission::pass) << "round " << i;
+    ASSERT_LE(ahead.bytes(), SamplesAhead::kMostBytes);
     const auto requests = assembly.with_requests(datagram.first(left));
     std::vector<std::vector<std::uint8_t>> whole;
     const std::size_t rest = assembly.take(datagram.first(left), kNobody, whole);
@@ -120,6 +141,9 @@ TEST(FuzzGuard, MutatedMessagesAreJudgedWithinTheirBytes) {
   }
   EXPECT_GT(completed, 0);
   EXPECT_GT(requested, 0);
+  EXPECT_GT(hashes, 0);
+  EXPECT_GT(endpoints, 0);
+  EXPECT_GT(ahead.samples(), 0U);
   for (const DatagramAdmission admission :
        {DatagramAdmission::pass, DatagramAdmission::no_rtps, DatagramAdmission::cut,
         DatagramAdmission::unknown_submessage, DatagramAdmission::bad_numbers,
