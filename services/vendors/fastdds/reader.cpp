@@ -68,9 +68,10 @@ FastReader::~FastReader() {
 }
 
 void FastReader::on_data_available(dds::DataReader* reader) {
-  std::vector<Taken> taken;
-  for (Taken one; reader->take_next_sample(&one.bytes, &one.info) == ReturnCode_t::RETCODE_OK; one = {})
-    taken.push_back(std::move(one));
+  std::vector<Taken> taken(1);
+  while (reader->take_next_sample(&taken.back().bytes, &taken.back().info) == ReturnCode_t::RETCODE_OK)
+    taken.emplace_back();
+  taken.pop_back();
   if (taken.size() > 1) put_in_order(taken);
   const std::lock_guard lock(mutex_);
   if (closed_) return;

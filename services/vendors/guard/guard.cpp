@@ -40,12 +40,13 @@ Guard::Guard(Policy policy) : policy_(std::move(policy)), identities_(policy_.se
 
 std::size_t Guard::admit(std::span<std::uint8_t> datagram, const std::optional<Source>& source) {
   const std::lock_guard lock(mutex_);
-  const DatagramAdmission admission = judge(datagram, source);
+  Contents contents;
+  const DatagramAdmission admission = judge(datagram, source, contents);
   if (admission == DatagramAdmission::pass) {
-    std::size_t left = strip_vendor_submessages(datagram);
-    limit_leases(datagram.first(left));
-    if (policy_.without_farewells) left = strip_farewells(datagram.first(left));
-    if (policy_.bounds_ahead && !policy_.secure) left = admit_ahead(datagram.first(left), source);
+    std::size_t left = contents.vendors_own ? strip_vendor_submessages(datagram) : datagram.size();
+    if (contents.discovery) limit_leases(datagram.first(left));
+    if (contents.discovery && policy_.without_farewells) left = strip_farewells(datagram.first(left));
+    if (contents.data && policy_.bounds_ahead && !policy_.secure) left = admit_ahead(datagram.first(left), source);
     if (policy_.secure) left = admit_secure(datagram.first(left));
     if (left > 0) ++counts_[static_cast<std::size_t>(DatagramAdmission::pass)];
     if (left == 0 && policy_.secure) ++counts_[static_cast<std::size_t>(DatagramAdmission::plain)];
@@ -115,18 +116,19 @@ void Guard::tell_of_parting() {
 }
 
 // The sender comes first: of a stranger nothing is read.
-DatagramAdmission Guard::judge(std::span<const std::uint8_t> datagram, const std::optional<Source>& source) {
+DatagramAdmission Guard::judge(std::span<const std::uint8_t> datagram, const std::optional<Source>& source,
+                               Contents& contents) {
   const auto& peers = policy_.peers;
   if (!peers.empty() && (!source || std::find(peers.begin(), peers.end(), source->address) == peers.end()))
     return DatagramAdmission::stranger;
-  SkippedNumbers skipped;
-  const DatagramAdmission admission = examine(datagram, skipped);
+  const DatagramAdmission admission = examine(datagram, contents);
   if (admission != DatagramAdmission::pass || !source) return admission;
   const auto now = std::chrono::steady_clock::now();
   const DatagramAdmission claimed = identities_.claim(sender_of(datagram), *source, now);
   if (claimed != DatagramAdmission::pass) return claimed;
-  if (!identities_.announce(sender_of(datagram), endpoints_in(datagram), now)) return DatagramAdmission::crowd;
-  const bool may_skip = gap_budget_.take(*source, sender_of(datagram), skipped, now);
+  if (contents.discovery && !identities_.announce(sender_of(datagram), endpoints_in(datagram), now))
+    return DatagramAdmission::crowd;
+  const bool may_skip = gap_budget_.take(*source, sender_of(datagram), contents.skipped, now);
   return may_skip ? DatagramAdmission::pass : DatagramAdmission::bad_numbers;
 }
 

@@ -62,7 +62,7 @@ class Guard {
   std::vector<transport::RefusedDatagrams> refused() const;
 
  private:
-  DatagramAdmission judge(std::span<const std::uint8_t> datagram, const std::optional<Source>&);
+  DatagramAdmission judge(std::span<const std::uint8_t> datagram, const std::optional<Source>&, Contents&);
   std::size_t admit_secure(std::span<std::uint8_t> message);
   std::size_t admit_ahead(std::span<std::uint8_t> message, const std::optional<Source>&);
   void refuse(DatagramAdmission, std::size_t times, const std::optional<Source>&);

@@ -99,16 +99,16 @@ bool hides_plain_data(std::span<const std::uint8_t> message) {
 }  // namespace
 
 DatagramAdmission examine(std::span<const std::uint8_t> datagram) {
-  SkippedNumbers skipped;
-  return examine(datagram, skipped);
+  Contents contents;
+  return examine(datagram, contents);
 }
 
-DatagramAdmission examine(std::span<const std::uint8_t> datagram, SkippedNumbers& skipped) {
+DatagramAdmission examine(std::span<const std::uint8_t> datagram, Contents& contents) {
   if (datagram.size() < kHeaderSize || std::memcmp(datagram.data(), "RTPS", 4) != 0 || datagram[4] != 2) {
     return DatagramAdmission::no_rtps;
   }
   const GuidPrefix sender = sender_of(datagram);
-  skipped = {};
+  contents = {};
   for (auto rest = datagram.subspan(kHeaderSize); !rest.empty();) {
     const std::size_t size = size_of_first(rest);
     if (size == 0) return DatagramAdmission::cut;
@@ -116,8 +116,13 @@ DatagramAdmission examine(std::span<const std::uint8_t> datagram, SkippedNumbers
       const Submessage one = parsed(rest.first(size));
       const DatagramAdmission admission = examine_submessage(one, sender);
       if (admission != DatagramAdmission::pass) return admission;
-      skipped += skipped_by(one);
-      if (!skipped.fits_one_datagram()) return DatagramAdmission::bad_numbers;
+      contents.skipped += skipped_by(one);
+      if (!contents.skipped.fits_one_datagram()) return DatagramAdmission::bad_numbers;
+      const bool data = one.id == kData || one.id == kDataFragment;
+      contents.data = contents.data || data;
+      contents.discovery = contents.discovery || (data && !is_of_user(one));
+    } else {
+      contents.vendors_own = true;
     }
     rest = rest.subspan(size);
   }

@@ -6,12 +6,11 @@
 #include <span>
 
 #include "services/vendors/guard/datagram_admission.hpp"
+#include "services/vendors/guard/gaps.hpp"
 #include "services/vendors/guard/parameters.hpp"
 #include "services/vendors/guard/submessages.hpp"
 
 namespace roci::services::vendors::guard {
-
-struct SkippedNumbers;  // gaps.hpp
 
 inline constexpr std::size_t kHeaderSize = 20;  ///< of an RTPS message
 
@@ -19,8 +18,16 @@ inline constexpr std::size_t kHeaderSize = 20;  ///< of an RTPS message
 /// kMaxSampleBytes, and speaks in discovery for its sender alone. What DDS Security has encrypted passes as it is;
 /// payloads of user topics are not looked into. It never says `stranger`, `taken_identity` or `crowd`.
 DatagramAdmission examine(std::span<const std::uint8_t> datagram);
-/// Counts in `skipped` what its GAPs skip, too; of a message that does not pass, up to where it fails.
-DatagramAdmission examine(std::span<const std::uint8_t> datagram, SkippedNumbers& skipped);
+
+/// Says what is in a message, so that what it has not is not looked for.
+struct Contents {
+  bool vendors_own = false;  ///< submessages that strip_vendor_submessages() takes out
+  bool discovery = false;    ///< data of discovery
+  bool data = false;         ///< any data
+  SkippedNumbers skipped{};
+};
+/// Tells the contents, too; of a message that does not pass, up to where it fails.
+DatagramAdmission examine(std::span<const std::uint8_t> datagram, Contents&);
 
 /// Returns the participant that a message says it is from. The message must have an RTPS header.
 GuidPrefix sender_of(std::span<const std::uint8_t> message);
