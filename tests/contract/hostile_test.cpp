@@ -197,6 +197,39 @@ TEST_P(Hostile, NobodyElseSaysFarewellForAParticipant) {
   EXPECT_THAT(reader.lines(), testing::Not(testing::Contains("matched 0")));
 }
 
+std::string hex(const Prefix& prefix) {
+  std::string text;
+  for (const std::uint8_t byte : prefix) {
+    constexpr std::string_view kDigits = "0123456789abcdef";
+    text += {kDigits[byte >> 4], kDigits[byte & 15]};
+  }
+  return text;
+}
+
+// Small samples and some that go in fragments.
+TEST_P(Hostile, AReaderThatAsksForWhatIsNotEndsAndHoldsNoWriter) {
+  const Eavesdropper eavesdropper(domain_.id());
+  Peer writer(GetParam(), "goal-writer", domain_.id(), {"PEER_PARTITION=roci.team"});
+  ASSERT_TRUE(writer.wait_for("ready"));
+  const Prefix writers = Eavesdropper::prefix_in(eavesdropper.hear_other_than({}));
+  writer.send("write ground small 1");
+  writer.send("write ground " + std::string(150'000, 'x') + " 1");
+  auto command = hostile_command("asks", domain_.id());
+  command.insert(command.end(), {hex(writers), "0"});
+  ChildProcess asker(command);
+  ASSERT_TRUE(writer.wait_for("matched 1"));
+  ASSERT_TRUE(asker.wait_for("round 9"));
+  const std::string large(150'000, 'y');
+  writer.send("write ground " + large + " 2");
+  ASSERT_TRUE(asker.wait_for("round 12"));
+  ChildProcess reader(reader_command(GetParam(), domain_.id()));
+  EXPECT_TRUE(reader.wait_for("goal ground " + large));
+  writer.send("write ground photo 3");
+  EXPECT_TRUE(reader.wait_for("goal ground photo"));
+  EXPECT_EQ(reader.finish(), 0);
+  EXPECT_EQ(writer.finish(), 0);
+}
+
 // Debian's Fast DDS asserts, or stands still for ever, where a farewell meets the end of its sender's lease.
 TEST_P(Hostile, AFarewellAtTheEndOfALeaseEndsNoReader) {
   ChildProcess reader(reader_command(GetParam(), domain_.id()));

@@ -41,19 +41,23 @@ DatagramAdmission gap(const Submessage& message) {
   return at_least(message, 28 + bytes_of_bits(bits));
 }
 
+// No sample has more fragments than it may have bytes.
+bool is_fragment(std::uint32_t number) { return number > 0 && number <= kMaxSampleBytes; }
+
 DatagramAdmission nack_fragments(const Submessage& message) {
   const ByteView& body = message.body;
   if (body.size() < 28) return DatagramAdmission::cut;
   const std::uint32_t base = body.u32(16), bits = body.u32(20);
-  if (!is_number(body.sequence_number(8)) || base == 0 || bits > kMaxBits) return DatagramAdmission::bad_numbers;
+  if (!is_number(body.sequence_number(8)) || !is_fragment(base) || bits > kMaxBits)
+    return DatagramAdmission::bad_numbers;
   return at_least(message, 28 + bytes_of_bits(bits));
 }
 
 DatagramAdmission heartbeat_fragments(const Submessage& message) {
   const ByteView& body = message.body;
   if (body.size() < 24) return DatagramAdmission::cut;
-  return !is_number(body.sequence_number(8)) || body.u32(16) == 0 ? DatagramAdmission::bad_numbers
-                                                                  : DatagramAdmission::pass;
+  const bool good = is_number(body.sequence_number(8)) && is_fragment(body.u32(16));
+  return good ? DatagramAdmission::pass : DatagramAdmission::bad_numbers;
 }
 
 DatagramAdmission info_source(const Submessage& message, const GuidPrefix& sender) {

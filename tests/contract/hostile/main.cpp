@@ -4,6 +4,8 @@
 //   goals ADDRESS ID   a writer on roci/goal that writes the goal stranger/ID well-formed to the host with that address
 //   gaps               on loopback, two writers on roci/goal, whose GAPs skip 2^18 numbers each, always further ones
 //   ahead              on loopback, a writer on roci/goal that never says its first sample, but always further ones
+//   asks PREFIX 0      on loopback, a reader on roci/goal that asks the participant with that GUID prefix (24 hexadecimal
+//                      digits) for samples and fragments that are not, and acknowledges what was never sent
 //   inject SEED COUNT  on loopback, mutants of the traffic that it hears and forged datagrams, COUNT at least
 // Standard output, one line each: ready | round N (all was sent N times) | sent COUNT SEED.
 #include <poll.h>
@@ -53,7 +55,7 @@ class Attackers {
         cyclone_(target, domain, kEclipse, 2, transport::own_announcement()) {
     const Bytes another = transport::serialize(v1::JournalChunk());
     for_each_topic([&]<class T>(const topics::Topic<T>& topic) {
-      const WriterDescription writer{topic.name, topic.type_name, T::isKeyDefined(),
+      const EndpointDescription writer{topic.name, topic.type_name, T::isKeyDefined(),
                                      transport::partitions_of(topic.scope, "")};
       T good;
       good = {};
@@ -160,6 +162,49 @@ void begin_late(int domain) {
   }
 }
 
+Prefix prefix_of(const std::string& digits) {
+  Prefix prefix;
+  for (std::size_t i = 0; i < prefix.size(); ++i)
+    prefix[i] = static_cast<std::uint8_t>(std::stoi(digits.substr(2 * i, 2), nullptr, 16));
+  return prefix;
+}
+
+// Its writer is one of the first that the participant made.
+void ask_without_measure(int domain, const Prefix& whom) {
+  constexpr std::uint32_t kWriters = 16;
+  Participant one(kLoopback, domain, kEprosima, 1, transport::own_announcement());
+  const Entity reader = one.add_reader(
+      {topics::goal.name, topics::goal.type_name, true, transport::partitions_of(topics::goal.scope, "")});
+  std::uint32_t count = 0;
+  const auto to_each = [&](const auto& say_to) {
+    for (std::uint32_t i = 1; i <= kWriters; ++i) {
+      auto message = one.message();
+      message.submessage(0x0e, 0, Bytes(whom.begin(), whom.end()));
+      say_to(message, i << 8 | 0x02, ++count);
+      one.send_to_readers(message);
+    }
+  };
+  constexpr std::int64_t kFar = std::int64_t{1} << 47;
+  for (int round = 0; wait_a_moment(); ++round) {
+    one.announce();
+    if (round > 5) {  // matched by then
+      for (const std::int64_t number : {1, 2, 3, 1000})
+        for (const std::uint32_t base : {1U, 2U, 3U, 4U, 100U, 0x7fffffffU, 0xffffff00U, 0xffffffffU})
+          for (const std::uint32_t bits : {0U, 1U, 32U, 256U})
+            to_each([&](Message& message, Entity writer, std::uint32_t n) {
+              message.nack_fragments(reader, writer, number, base, bits, 0xff, n);
+            });
+      for (const std::int64_t base : {std::int64_t{1}, std::int64_t{2}, std::int64_t{3}, std::int64_t{4}, kFar,
+                                      std::int64_t{0}, 2 * kFar, std::int64_t{1}})
+        for (const std::uint32_t bits : {0U, 1U, 32U, 256U})
+          to_each([&](Message& message, Entity writer, std::uint32_t n) {
+            message.acknack(reader, writer, base, bits, 0xff, n);
+          });
+    }
+    say("round " + std::to_string(round));
+  }
+}
+
 void run(const std::vector<std::string>& words) {
   if (words.size() < 2)
     throw std::invalid_argument("usage: contract-hostile ROLE DOMAIN [ADDRESS ID | SEED COUNT]");
@@ -170,6 +215,7 @@ void run(const std::vector<std::string>& words) {
   if (words[0] == "ahead") return run_ahead(domain);
   if (words[0] == "starts") return begin_late(domain);
   if (words.size() != 4) throw std::invalid_argument("unknown role " + words[0]);
+  if (words[0] == "asks") return ask_without_measure(domain, prefix_of(words[2]));
   if (words[0] == "goals") return write_goals(address_of(words[2]), domain, words[3]);
   if (words[0] != "inject") throw std::invalid_argument("unknown role " + words[0]);
   Injector injector(domain, std::stoull(words[2]));

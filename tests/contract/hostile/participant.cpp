@@ -15,6 +15,7 @@ namespace {
 constexpr Entity kParticipant = 0x000001c1;
 constexpr Entity kParticipantWriter = 0x000100c2, kParticipantReader = 0x000100c7;
 constexpr Entity kPublicationWriter = 0x000003c2, kPublicationReader = 0x000003c7;
+constexpr Entity kSubscriptionWriter = 0x000004c2, kSubscriptionReader = 0x000004c7;
 constexpr int kParticipantsAttacked = 12;  // the first of a domain, more than a mission has
 constexpr int kDeadPort = 9;               // what others send to this participant goes nowhere
 
@@ -43,6 +44,10 @@ Entity writer_id(std::size_t index, bool keyed) {
   return static_cast<Entity>((index + 1) << 8) | (keyed ? 0x02 : 0x03);
 }
 
+Entity reader_id(std::size_t index, bool keyed) {
+  return static_cast<Entity>((index + 1) << 8) | (keyed ? 0x07 : 0x04);
+}
+
 Participant::Participant(std::uint32_t target, int domain, Vendor vendor, std::uint8_t number,
                          std::string user_data)
     : target_(target), domain_(domain), vendor_(vendor), user_data_(std::move(user_data)) {
@@ -52,9 +57,14 @@ Participant::Participant(std::uint32_t target, int domain, Vendor vendor, std::u
     prefix_[8 + static_cast<std::size_t>(i)] = static_cast<std::uint8_t>(process >> 8 * i);
 }
 
-Entity Participant::add_writer(const WriterDescription& writer) {
+Entity Participant::add_writer(const EndpointDescription& writer) {
   writers_.push_back(writer);
   return writer_id(writers_.size() - 1, writer.keyed);
+}
+
+Entity Participant::add_reader(const EndpointDescription& reader) {
+  readers_.push_back(reader);
+  return reader_id(readers_.size() - 1, reader.keyed);
 }
 
 Bytes Participant::own_sample() const {
@@ -75,19 +85,17 @@ Bytes Participant::own_sample() const {
   return parameters.add(0x002c, user_data).sample();
 }
 
-Bytes Participant::writer_sample(std::size_t index) const {
-  const WriterDescription& writer = writers_[index];
+Bytes Participant::endpoint_sample(const EndpointDescription& endpoint, Entity id) const {
   Parameters parameters;
-  parameters.add_guid(0x005a, prefix_, writer_id(index, writer.keyed))
-      .add_guid(0x0050, prefix_, kParticipant);
-  parameters.add_string(0x0005, writer.topic).add_string(0x0007, writer.type);
+  parameters.add_guid(0x005a, prefix_, id).add_guid(0x0050, prefix_, kParticipant);
+  parameters.add_string(0x0005, endpoint.topic).add_string(0x0007, endpoint.type);
   parameters.add_u32(0x001d, 1);  // transient local
   Bytes reliability;
   put_u32(reliability, 2);
   put_u32(reliability, 0);
   put_u32(reliability, 0x19999999);
   parameters.add(0x001a, reliability).add_locator(0x002f, target_, kDeadPort);
-  if (!writer.partitions.empty()) parameters.add_strings(0x0029, writer.partitions);
+  if (!endpoint.partitions.empty()) parameters.add_strings(0x0029, endpoint.partitions);
   return parameters.sample();
 }
 
@@ -95,11 +103,17 @@ void Participant::announce() {
   ++announcements_;
   send_to_discovery(
       message().data(kParticipantReader, kParticipantWriter, announcements_, kData, {}, own_sample()));
-  const auto count = static_cast<std::int64_t>(writers_.size());
-  send_to_discovery(message().heartbeat(kPublicationReader, kPublicationWriter, 1, count, announcements_));
-  for (std::size_t i = 0; i < writers_.size(); ++i) {
-    send_to_discovery(message().data(kPublicationReader, kPublicationWriter, static_cast<std::int64_t>(i) + 1,
-                                     kData, {}, writer_sample(i)));
+  announce_all(kPublicationWriter, kPublicationReader, writers_, writer_id);
+  announce_all(kSubscriptionWriter, kSubscriptionReader, readers_, reader_id);
+}
+
+void Participant::announce_all(Entity writer, Entity reader, const std::vector<EndpointDescription>& endpoints,
+                               Entity (*id)(std::size_t index, bool keyed)) {
+  const auto count = static_cast<std::int64_t>(endpoints.size());
+  send_to_discovery(message().heartbeat(reader, writer, 1, count, announcements_));
+  for (std::size_t i = 0; i < endpoints.size(); ++i) {
+    send_to_discovery(message().data(reader, writer, static_cast<std::int64_t>(i) + 1, kData, {},
+                                     endpoint_sample(endpoints[i], id(i, endpoints[i].keyed))));
   }
 }
 

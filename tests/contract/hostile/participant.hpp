@@ -25,7 +25,7 @@ class Socket {
   int port_ = 0;
 };
 
-struct WriterDescription {
+struct EndpointDescription {
   std::string topic;
   std::string type;
   bool keyed = false;
@@ -39,9 +39,12 @@ class Participant {
   Participant(std::uint32_t target, int domain, Vendor, std::uint8_t number, std::string user_data);
 
   /// The entity id of the new writer.
-  Entity add_writer(const WriterDescription&);
+  Entity add_writer(const EndpointDescription&);
 
-  /// Tells the first participants of the domain on the target of itself and of its writers.
+  /// The entity id of the new reader, which is reliable and transient local as well.
+  Entity add_reader(const EndpointDescription&);
+
+  /// Tells the first participants of the domain on the target of itself, its writers and its readers.
   void announce();
   /// Says farewell to them, as both vendors do when a participant is deleted.
   void leave();
@@ -58,7 +61,9 @@ class Participant {
  private:
   void send(const Message&, int first_port) const;
   Bytes own_sample() const;
-  Bytes writer_sample(std::size_t index) const;
+  void announce_all(Entity writer, Entity reader, const std::vector<EndpointDescription>&,
+                    Entity (*id)(std::size_t index, bool keyed));
+  Bytes endpoint_sample(const EndpointDescription&, Entity id) const;
 
   const std::uint32_t target_;
   const int domain_;
@@ -66,7 +71,8 @@ class Participant {
   const std::string user_data_;
   Prefix prefix_{};
   Socket socket_;
-  std::vector<WriterDescription> writers_;
+  std::vector<EndpointDescription> writers_;
+  std::vector<EndpointDescription> readers_;
   std::uint32_t announcements_ = 0;
   std::chrono::microseconds lease_{20'000'000};
 };
@@ -78,7 +84,8 @@ struct Farewell {
 };
 Farewell farewell_of(const Prefix&);
 
-/// The entity id of the writer that was added as number `index`, from 0.
+/// The entity ids of the writer and of the reader that was added as number `index`, from 0.
 Entity writer_id(std::size_t index, bool keyed);
+Entity reader_id(std::size_t index, bool keyed);
 
 }  // namespace roci::services::contract::hostile

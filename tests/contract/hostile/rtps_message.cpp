@@ -154,15 +154,29 @@ Message& Message::gap(Entity reader, Entity writer, std::int64_t start, std::int
   return submessage(0x08, 0, body);
 }
 
-Message& Message::acknack(Entity reader, Entity writer, std::int64_t base, std::uint32_t bits) {
+Message& Message::acknack(Entity reader, Entity writer, std::int64_t base, std::uint32_t bits,
+                          std::uint8_t asked, std::uint32_t count) {
   Bytes body;
   put_entity(body, reader);
   put_entity(body, writer);
   put_sequence_number(body, base);
   put_u32(body, bits);
-  body.resize(body.size() + (bits + 31) / 32 * 4);
-  put_u32(body, 1);
+  body.resize(body.size() + (bits + 31) / 32 * 4, asked);
+  put_u32(body, count);
   return submessage(0x06, 0, body);
+}
+
+Message& Message::nack_fragments(Entity reader, Entity writer, std::int64_t number, std::uint32_t base,
+                                 std::uint32_t bits, std::uint8_t asked, std::uint32_t count) {
+  Bytes body;
+  put_entity(body, reader);
+  put_entity(body, writer);
+  put_sequence_number(body, number);
+  put_u32(body, base);
+  put_u32(body, bits);
+  body.resize(body.size() + (bits + 31) / 32 * 4, asked);
+  put_u32(body, count);
+  return submessage(0x12, 0, body);
 }
 
 }  // namespace roci::services::contract::hostile

@@ -59,7 +59,11 @@ class Message {
   Message& heartbeat(Entity reader, Entity writer, std::int64_t first, std::int64_t last,
                      std::uint32_t count);
   Message& gap(Entity reader, Entity writer, std::int64_t start, std::int64_t base, std::uint32_t bits);
-  Message& acknack(Entity reader, Entity writer, std::int64_t base, std::uint32_t bits);
+  /// `asked`: each byte of the set of numbers.
+  Message& acknack(Entity reader, Entity writer, std::int64_t base, std::uint32_t bits, std::uint8_t asked = 0,
+                   std::uint32_t count = 1);
+  Message& nack_fragments(Entity reader, Entity writer, std::int64_t number, std::uint32_t base,
+                          std::uint32_t bits, std::uint8_t asked, std::uint32_t count);
 
   const Bytes& bytes() const { return bytes_; }
 

@@ -184,6 +184,9 @@ TEST(Guard, EachKindOfDamageHasItsVerdict) {
   EXPECT_EQ(judge(own().heartbeat(0, kUserWriter, 5, 3, 1)), DatagramAdmission::bad_numbers);
   EXPECT_EQ(judge(own().gap(0, kUserWriter, 2, std::int64_t{1} << 30, 0)), DatagramAdmission::bad_numbers);
   EXPECT_EQ(judge(own().acknack(7, kUserWriter, 1, 257)), DatagramAdmission::bad_numbers);
+  EXPECT_EQ(judge(own().nack_fragments(7, kUserWriter, 1, kMaxSampleBytes, 256, 0xff, 1)), DatagramAdmission::pass);
+  EXPECT_EQ(judge(own().nack_fragments(7, kUserWriter, 1, 0xffffff00, 256, 0xff, 1)), DatagramAdmission::bad_numbers)
+      << "no sample has as many; Cyclone DDS tells of each in its log";
   EXPECT_EQ(judge(own().data(0, kUserWriter, 0, kData, {}, kPayload)), DatagramAdmission::bad_numbers);
   EXPECT_EQ(judge(own().data(0, kUserWriter, 1, kData | kKey, {}, kPayload)), DatagramAdmission::cut);
   EXPECT_EQ(judge(own().data(0, kUserWriter, 1, kInlineQos | kData, {}, kPayload)),
