@@ -27,7 +27,7 @@ class KeySlots {
   using Handle = std::array<std::uint8_t, 16>;  ///< names a slot in the place of a key hash
 
   /// So many slots that nobody holds wait before the first of them is given anew.
-  static constexpr std::size_t kIdle = 16'384;
+  static constexpr std::size_t kIdle = 4'096;
   static constexpr std::size_t kHeld = InstanceTable::kInstances;  ///< as many as one topic follows
   static constexpr std::size_t kSlots = kHeld + kIdle;
 
