@@ -63,6 +63,7 @@ Parts split(const Submessage& message, std::size_t fixed, const GuidPrefix& send
 // A parameter list behind its encapsulation header. A participant says how long its lease is: what vendors take for a
 // default lasts for ever. A bare key of 16 bytes would be taken for the GUID that it holds.
 DatagramAdmission discovery_payload(const ByteView& payload, const GuidPrefix& sender, bool has_lease) {
+  if (payload.size() > kMaxDiscoveryBytes) return DatagramAdmission::oversized;
   const bool big = payload.bytes[1] == 2, little = payload.bytes[1] == 3;
   if (payload.bytes[0] != 0 || (!big && !little)) return DatagramAdmission::bad_parameters;
   const ByteView list{payload.bytes.subspan(4), little};

@@ -359,6 +359,8 @@ TEST(Guard, DiscoveryWhoseTextsDoNotFitIsRefused) {
             DatagramAdmission::bad_parameters)
       << "a property without its value";
   EXPECT_EQ(discovery(Parameters().add(0x32, Bytes(20))), DatagramAdmission::bad_parameters);
+  EXPECT_EQ(discovery(Parameters().add_string(5, std::string(kMaxDiscoveryBytes - 100, 'x'))), DatagramAdmission::pass);
+  EXPECT_EQ(discovery(Parameters().add_string(5, std::string(kMaxDiscoveryBytes, 'x'))), DatagramAdmission::oversized);
 }
 
 TEST(Guard, VendorsOwnSubmessagesAreTakenOut) {
