@@ -22,6 +22,7 @@ Ending Radio::begin(const world::Task& task, Time now, Surroundings& around) {
   const std::string& id = task.arguments.at("image");
   const world::Image* const image = around.body.images.find(id);
   if (image == nullptr) {
+    around.body.images.note_missing(id);
     return Failure{"no-image", "no image '" + id + "' is on board; take it first"};
   }
   const auto& windows = around.environment.windows;
@@ -46,7 +47,10 @@ Ending Radio::finish(Surroundings& around) {
   const Transfer done = *std::exchange(transfer_, std::nullopt);
   if (done.cut_off) return Failure{"contact-lost", "the window closed before the image was sent"};
   std::optional<world::Image> image = around.body.images.set_sent(done.image);
-  if (!image) return Failure{"no-image", "image '" + done.image + "' is not on board any more"};
+  if (!image) {
+    around.body.images.note_missing(done.image);
+    return Failure{"no-image", "image '" + done.image + "' is not on board any more"};
+  }
   around.effects.push_back({"send", done.image});
   around.out.push_back(*std::move(image));
   return std::nullopt;

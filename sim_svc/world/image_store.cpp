@@ -42,11 +42,18 @@ void ImageStore::forget_oldest_sent() {
   }
 }
 
+void ImageStore::note_missing(const std::string& id) {
+  changed_.insert(id);
+  missing_.insert(id);
+}
+
 std::vector<ImageStore::Change> ImageStore::take_changes() {
   std::vector<Change> out;
+  const auto missing = std::exchange(missing_, {});
   for (const std::string& id : std::exchange(changed_, {})) {
     const Image* const image = find(id);
-    out.push_back({id, image == nullptr ? State::forgotten : image->sent ? State::sent : State::stored});
+    const State absent = missing.contains(id) ? State::missing : State::forgotten;
+    out.push_back({id, image == nullptr ? absent : image->sent ? State::sent : State::stored});
   }
   return out;
 }

@@ -25,7 +25,7 @@ class ImageStore {
   /// are taken back whose images nobody sends any more.
   static constexpr std::size_t kStored = 200;
 
-  enum class State : std::uint8_t { stored, sent, forgotten };
+  enum class State : std::uint8_t { stored, sent, forgotten, missing };
   struct Change {
     std::string id;
     State state = State::stored;
@@ -41,6 +41,9 @@ class ImageStore {
   /// Notes that the image was sent. Returns it as it was sent, with its picture unless that was sent before, or nothing
   /// when there is none of that id.
   std::optional<Image> set_sent(const std::string& id);
+  /// Notes that this image was asked for and is not here, so that whoever believes in it hears so: a robot that was
+  /// started anew may have lost what it had told of.
+  void note_missing(const std::string& id);
   /// Returns what has changed since the last call, in the order of the ids, with the states as they are now.
   std::vector<Change> take_changes();
 
@@ -54,6 +57,7 @@ class ImageStore {
   std::map<std::string, Image> images_;
   std::list<std::string> sent_;    // ids, the oldest first
   std::set<std::string> changed_;  // ids
+  std::set<std::string> missing_;  // of these, those that were asked for in vain
 };
 
 }  // namespace roci::sim::world

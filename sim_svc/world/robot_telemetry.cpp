@@ -50,6 +50,9 @@ void Robot::report_things(Time now, Reporter& reporter, Outputs& out) {
     const std::string timeline = name_ + ".image." + image.id;
     if (image.state == ImageStore::State::forgotten) {
       reporter.end(timeline, now, out);
+    } else if (image.state == ImageStore::State::missing) {
+      reporter.report(timeline, temporal::State{"missing", {}}, now, out);
+      reporter.end(timeline, now, out);
     } else {
       const char* const state = image.state == ImageStore::State::sent ? "sent" : "stored";
       reporter.report(timeline, temporal::State{state, {}}, now, out);

@@ -325,6 +325,17 @@ TEST(World, InterlocksKeepTheRobotWhole) {
   EXPECT_EQ(run.code("m3"), "driving");
 }
 
+// Its memory may be older than what it has told of: it was killed while its disk was full.
+TEST(World, ARobotThatIsAskedForAnImageThatItHasNotSaysSo) {
+  Flight run(flat_setup());
+  run.command(seconds(2), execute("lost", "radio", "send", {{"image", "one"}}));
+  EXPECT_EQ(run.code("lost"), "no-image");
+  EXPECT_EQ(run.state("rover.image.one"), (State{"missing", {}}));
+  run.command(seconds(3), execute("i", "camera", "image", {{"image", "one"}}));
+  run.advance(seconds(100));
+  EXPECT_EQ(run.state("rover.image.one"), (State{"stored", {}})) << "it is taken anew";
+}
+
 TEST(World, AnImageIsStoredThenSentInTheWindow) {
   Flight run(flat_setup());
   run.command(seconds(1), execute("early", "radio", "send", {{"image", "one"}}));
