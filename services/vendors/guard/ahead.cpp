@@ -56,10 +56,11 @@ void SamplesAhead::forget_up_to(Expected& expected, std::int64_t next) {
 }
 
 std::size_t SamplesAhead::take(std::span<std::uint8_t> message, std::size_t& refused) {
-  const GuidPrefix sender = sender_of(message);
+  GuidPrefix sender = sender_of(message);
   bool speaks = false;
   const std::size_t left =
       strip_submessages(message, [&](std::span<const std::uint8_t>, const Submessage& one) {
+        if (one.id == kInfoSource) std::copy_n(one.body.bytes.begin() + 8, sender.size(), sender.begin());
         const bool admitted = !is_data(one) || admits(sender, one);
         refused += admitted ? 0 : 1;
         const bool context = one.id == kInfoTimestamp || one.id == kInfoDestination || one.id == kInfoSource;
@@ -91,10 +92,11 @@ bool SamplesAhead::admits(const GuidPrefix& sender, const Submessage& data) {
 }
 
 void SamplesAhead::gave_up(const GuidPrefix& participant) {
-  for (auto it = writers_.lower_bound({participant, 0}); it != writers_.end() && it->first.first == participant;
-       it = writers_.erase(it)) {
+  auto it = writers_.lower_bound({participant, 0});
+  while (it != writers_.end() && it->first.first == participant) {
     for (auto& [reader, expected] : it->second) forget_up_to(expected, kHighestNumber + 1);
     pairs_ -= it->second.size();
+    it = writers_.erase(it);
   }
 }
 

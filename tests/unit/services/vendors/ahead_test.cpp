@@ -103,6 +103,20 @@ TEST_F(Ahead, CountForEachReaderThatKeepsThem) {
   EXPECT_EQ(samples_.samples(), 4U) << "for this reader alone";
 }
 
+// Several participants of one process may speak through each other.
+TEST_F(Ahead, CountForWhomTheyAreSaid) {
+  acknowledge(kSecond, 1);
+  Bytes source(8);
+  source.insert(source.end(), kSecond.begin(), kSecond.end());
+  const auto message = Message(kFirst, kEprosima)
+                           .submessage(0x0c, 0, source)
+                           .data(0, kOfWriter, 5, kData, {}, Bytes(1000));
+  Bytes bytes = message.bytes();
+  std::size_t refused = 0;
+  EXPECT_EQ(samples_.take(bytes, refused), bytes.size());
+  EXPECT_EQ(samples_.samples(), 1U);
+}
+
 TEST_F(Ahead, CountAFragmentAsItsWholeSample) {
   acknowledge(kFirst, 1);
   const auto fragment = [](std::int64_t number) {
