@@ -117,8 +117,9 @@ TEST_P(BoundedHistories, AWriterWhoseReaderHasStoppedRefusesWhatIsBeyondItsBound
   EXPECT_GT(taken, 0U);
   EXPECT_LE(taken, vendors::kUnconfirmedBytes / payload.size() + 1) << "of 200";
   EXPECT_LE(peak_memory(getpid()) - before, vendors::kUnconfirmedBytes + 40 * kMegabyte);
-  ASSERT_EQ(::kill(reader.pid(), SIGCONT), 0);
-  EXPECT_EQ(reader.finish(), 0);
+  // It does not go on: one that leaves while samples are sent to it again can stop a Fast DDS writer for good
+  // (docs/dds.md, quirk 25).
+  ASSERT_EQ(::kill(reader.pid(), SIGKILL), 0);
 }
 
 // Beyond the bound Cyclone DDS reads the keys that it knows, and Fast DDS all; both go on.
