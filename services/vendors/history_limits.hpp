@@ -9,7 +9,7 @@ namespace roci::services::vendors {
 
 /// Bounds the keys of one type that Cyclone DDS keeps in a process, as our own table of a topic does: samples of new
 /// keys are refused until the writers of others have gone. Fast DDS offers no such bound that leaves the topic alive
-/// (qos.cpp).
+/// (key_slots.hpp).
 inline constexpr std::size_t kKeysOfTopic = InstanceTable::kInstances;
 
 /// Bounds the bytes of samples of a keep-all writer that not every reader has confirmed, beside its bound in number;

@@ -159,7 +159,7 @@ dds::DataReaderQos reader_qos(const transport::QosSettings& settings) {
   qos.endpoint().history_memory_policy = rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
   // What comes is taken at once: only keys pile up here. With max_instances Debian's 2.9 takes no further key as long
   // as the writers of all stay, confirms no sample of one, and so stops their writers for good:
-  // no limit is the lesser evil.
+  // slots bound them instead (key_slots.hpp).
   qos.data_sharing().off();
   qos.reliable_reader_qos().times.initialAcknackDelay = Duration_t(0, 10 * kMillisecond);
   qos.reliable_reader_qos().times.heartbeatResponseDelay = Duration_t(0, 2 * kMillisecond);

@@ -7,12 +7,6 @@
 namespace roci::services::vendors::guard {
 namespace {
 
-std::uint32_t entity_at(const ByteView& body, std::size_t at) {
-  return ByteView{body.part(at, 4).bytes, false}.u32(0);
-}
-
-bool is_data(const Submessage& message) { return message.id == kData || message.id == kDataFragment; }
-
 // Of a whole sample.
 std::uint32_t size_of(const Submessage& data) {
   return data.id == kDataFragment ? data.body.u32(28) : static_cast<std::uint32_t>(data.body.size());
@@ -27,7 +21,7 @@ void SamplesAhead::acknowledge(std::span<const std::uint8_t> message) {
     if (one.id == kInfoDestination && one.body.size() >= destination.size())
       std::copy_n(one.body.bytes.begin(), destination.size(), destination.begin());
     if (one.id != kAckNack || one.body.size() < 16) return;
-    Expected& expected = expected_of({destination, entity_at(one.body, 4)}, entity_at(one.body, 0));
+    Expected& expected = expected_of({destination, one.body.entity_id(4)}, one.body.entity_id(0));
     forget_up_to(expected, one.body.sequence_number(8));
   });
 }
@@ -63,17 +57,16 @@ std::size_t SamplesAhead::take(std::span<std::uint8_t> message, std::size_t& ref
         if (one.id == kInfoSource) std::copy_n(one.body.bytes.begin() + 8, sender.size(), sender.begin());
         const bool admitted = !is_data(one) || admits(sender, one);
         refused += admitted ? 0 : 1;
-        const bool context = one.id == kInfoTimestamp || one.id == kInfoDestination || one.id == kInfoSource;
-        speaks = speaks || (admitted && !context);
+        speaks = speaks || (admitted && !is_context(one));
         return admitted;
       });
   return speaks ? left : 0;
 }
 
 bool SamplesAhead::admits(const GuidPrefix& sender, const Submessage& data) {
-  const auto readers = writers_.find({sender, entity_at(data.body, 8)});
+  const auto readers = writers_.find({sender, data.body.entity_id(8)});
   if (readers == writers_.end()) return true;
-  const Reader only = entity_at(data.body, 4);
+  const Reader only = data.body.entity_id(4);
   const std::int64_t number = data.body.sequence_number(12);
   const std::uint32_t size = size_of(data);
   const auto keeps = [&](const auto& one) {

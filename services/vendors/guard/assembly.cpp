@@ -29,8 +29,6 @@ void append_u32(std::vector<std::uint8_t>& out, std::uint32_t value) {
   append_u16(out, static_cast<std::uint16_t>(value >> 16), true);
 }
 
-bool is_context(std::uint8_t id) { return id == kInfoTimestamp || id == kInfoDestination || id == kInfoSource; }
-
 // Takes the sample out of those that an ACKNACK asks for; `parsed` is its body, and `body` a copy to be changed.
 void unask(std::span<std::uint8_t> body, const ByteView& parsed, std::int64_t number) {
   const std::int64_t bit = number - parsed.sequence_number(8);
@@ -50,8 +48,8 @@ std::size_t Assembly::take(std::span<std::uint8_t> message, std::uint16_t own_ve
   bool speaks = false;
   const auto keep = [&](std::span<const std::uint8_t> one, const Submessage& parsed) {
     const bool fragment = parsed.id == kDataFragment && is_of_user(parsed);
-    if (is_context(parsed.id)) append(context, one);
-    speaks = speaks || !(fragment || is_context(parsed.id));
+    if (is_context(parsed)) append(context, one);
+    speaks = speaks || !(fragment || is_context(parsed));
     auto complete = fragment ? add(header, parsed, context) : std::nullopt;
     if (complete && examine(*complete) == DatagramAdmission::pass) whole.push_back(*std::move(complete));
     return !fragment;
@@ -61,7 +59,7 @@ std::size_t Assembly::take(std::span<std::uint8_t> message, std::uint16_t own_ve
 }
 
 Assembly::Sample& Assembly::sample_of(const GuidPrefix& sender, const ByteView& body) {
-  const std::uint32_t writer = ByteView{body.part(8, 4).bytes, false}.u32(0), size = body.u32(28);
+  const std::uint32_t writer = body.entity_id(8), size = body.u32(28);
   const std::int64_t number = body.sequence_number(12);
   const std::uint16_t fragment_size = body.u16(26);
   const auto known = std::ranges::find_if(samples_, [&](const Sample& one) {
@@ -97,7 +95,7 @@ std::vector<std::uint8_t> Assembly::with_requests(std::span<const std::uint8_t> 
   for_each_submessage(message, [&](const Submessage& one) {
     if (one.id == kInfoDestination && one.body.size() >= 12) destination = one.body.bytes.first(12);
     if (one.id != kAckNack || one.body.size() < kAckNackSize || destination.empty()) return;
-    const std::uint32_t writer = ByteView{one.body.part(4, 4).bytes, false}.u32(0);
+    const std::uint32_t writer = one.body.entity_id(4);
     const auto at = static_cast<std::size_t>(one.body.bytes.data() - message.data());
     for (const Sample& sample : samples_) {
       if (sample.writer != writer || !std::ranges::equal(sample.sender, destination)) continue;

@@ -26,6 +26,8 @@ struct ByteView {
     const std::uint32_t first = u16(at), second = u16(at + 2);
     return little_endian ? first | second << 16 : first << 16 | second;
   }
+  /// Reads an entity id in the order of its bytes, whatever theirs is (RTPS 2.3, 9.3.1.2).
+  std::uint32_t entity_id(std::size_t at) const { return ByteView{bytes.subspan(at, 4), false}.u32(0); }
   /// Reads a sequence number, whose high half comes first in either byte order (RTPS 2.3, 9.3.2).
   std::int64_t sequence_number(std::size_t at) const {
     return static_cast<std::int64_t>(std::uint64_t{u32(at)} << 32 | u32(at + 4));

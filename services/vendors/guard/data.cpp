@@ -18,7 +18,7 @@ enum class WriterKind { user, discovery, liveliness, other_builtin };
 
 WriterKind kind_of_writer(const ByteView& entity_id) {
   if (is_of_user(entity_id)) return WriterKind::user;
-  switch (ByteView{entity_id.bytes, false}.u32(0)) {
+  switch (entity_id.entity_id(0)) {
     case kParticipants:
     case kTopics:
     case kWriters:
@@ -109,8 +109,10 @@ DatagramAdmission examine_data(const Submessage& message, const GuidPrefix& send
   if (parts.admission != DatagramAdmission::pass) return parts.admission;
   if (!data && !key) return DatagramAdmission::pass;
   if (parts.payload.size() < 4) return DatagramAdmission::cut;
-  const bool has_lease = data && ByteView{message.body.part(8, 4).bytes, false}.u32(0) == kParticipants;
-  if (parts.writer == WriterKind::discovery) return discovery_payload(parts.payload, sender, has_lease);
+  if (parts.writer == WriterKind::discovery) {
+    const bool has_lease = data && message.body.entity_id(8) == kParticipants;
+    return discovery_payload(parts.payload, sender, has_lease);
+  }
   if (parts.writer == WriterKind::liveliness) return liveliness_payload(parts.payload, sender);
   return DatagramAdmission::pass;
 }

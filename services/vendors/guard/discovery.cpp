@@ -15,8 +15,8 @@ namespace {
 template <class See>
 void for_each_sample(std::span<const std::uint8_t> message, std::uint32_t writer, See see) {
   for_each_submessage(message, [&](const Submessage& one) {
-    if ((one.id != kData && one.id != kDataFragment) || one.body.size() < 12) return;
-    if (ByteView{one.body.part(8, 4).bytes, false}.u32(0) != writer) return;
+    if (!is_data(one) || one.body.size() < 12) return;
+    if (one.body.entity_id(8) != writer) return;
     const ByteView payload = payload_of(one);
     if (payload.size() > 0) see(payload);
   });

@@ -8,17 +8,12 @@
 #include "services/vendors/guard/rtps_ids.hpp"
 
 namespace roci::services::vendors::guard {
-namespace {
-
-std::uint32_t writer_of(const Submessage& data) { return ByteView{data.body.part(8, 4).bytes, false}.u32(0); }
-
-}  // namespace
 
 std::vector<EndpointWord> endpoints_in(std::span<const std::uint8_t> message) {
   std::vector<EndpointWord> out;
   for_each_submessage(message, [&out](const Submessage& one) {
     if (one.id != kData) return;
-    const std::uint32_t writer = writer_of(one);
+    const std::uint32_t writer = one.body.entity_id(8);
     if (writer != kWriters && writer != kReaders && writer != kTopics) return;
     EndpointWord word{{}, writer, one.body.sequence_number(12), false};
     std::optional<ByteView> named;
@@ -42,7 +37,7 @@ std::vector<EndpointWord> endpoints_in(std::span<const std::uint8_t> message) {
 
 void limit_leases(std::span<std::uint8_t> message) {
   for_each_submessage(message, [message](const Submessage& one) {
-    if (one.id != kData || (one.flags & kDataFlag) == 0 || writer_of(one) != kParticipants) return;
+    if (one.id != kData || (one.flags & kDataFlag) == 0 || one.body.entity_id(8) != kParticipants) return;
     for_each_parameter(payload_of(one), kLease, [message](const ByteView& lease) {
       if (lease.u32(0) < kLongestLease) return;
       const auto value = message.subspan(static_cast<std::size_t>(lease.bytes.data() - message.data()), 8);

@@ -17,7 +17,7 @@ SkippedNumbers skipped_by(const Submessage& message) {
   if (message.id == kHeartbeat) {
     const std::int64_t first = message.body.sequence_number(8);
     if (first <= SkippedNumbers::kFreeStart) return {};
-    return {.starts = {{ByteView{message.body.part(4, 4).bytes, false}.u32(0), first}}};
+    return {.starts = {{message.body.entity_id(4), first}}};
   }
   if (message.id != kGap || message.body.size() < 28) return {};
   const std::int64_t start = message.body.sequence_number(8), base = message.body.sequence_number(16);

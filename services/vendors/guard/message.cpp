@@ -52,7 +52,7 @@ std::size_t strip(std::span<std::uint8_t> message, Keep keep) {
 bool is_farewell(std::span<const std::uint8_t> one) {
   if (one[0] != kData) return false;
   const ByteView body = parsed(one).body;
-  if (ByteView{body.part(8, 4).bytes, false}.u32(0) != kParticipants) return false;
+  if (body.entity_id(8) != kParticipants) return false;
   if ((one[1] & kDataFlag) == 0) return true;
   if ((one[1] & kInlineQosFlag) == 0) return false;
   const auto status = find_parameter(body.from(4 + std::size_t{body.u16(2)}), kStatusInfo);
@@ -118,9 +118,8 @@ DatagramAdmission examine(std::span<const std::uint8_t> datagram, Contents& cont
       if (admission != DatagramAdmission::pass) return admission;
       contents.skipped += skipped_by(one);
       if (!contents.skipped.fits_one_datagram()) return DatagramAdmission::bad_numbers;
-      const bool data = one.id == kData || one.id == kDataFragment;
-      contents.data = contents.data || data;
-      contents.discovery = contents.discovery || (data && !is_of_user(one));
+      contents.data = contents.data || is_data(one);
+      contents.discovery = contents.discovery || (is_data(one) && !is_of_user(one));
     } else {
       contents.vendors_own = true;
     }
@@ -148,8 +147,7 @@ void for_each_submessage(std::span<const std::uint8_t> message,
 void for_each_key_hash(std::span<std::uint8_t> message,
                        const std::function<void(std::span<std::uint8_t, 16>)>& see) {
   for_each_submessage(message, [&](const Submessage& one) {
-    const bool data = one.id == kData || one.id == kDataFragment;
-    if (!data || (one.flags & kInlineQosFlag) == 0 || !is_of_user(one)) return;
+    if (!is_data(one) || (one.flags & kInlineQosFlag) == 0 || !is_of_user(one)) return;
     const ByteView inline_qos = one.body.from(4 + std::size_t{one.body.u16(2)});
     for_each_parameter(inline_qos, kKeyHash, [&](const ByteView& hash) {
       const auto at = static_cast<std::size_t>(hash.bytes.data() - message.data());

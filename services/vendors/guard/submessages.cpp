@@ -90,6 +90,12 @@ DatagramAdmission info_timestamp(const Submessage& message) {
 
 }  // namespace
 
+bool is_data(const Submessage& message) { return message.id == kData || message.id == kDataFragment; }
+
+bool is_context(const Submessage& message) {
+  return message.id == kInfoTimestamp || message.id == kInfoDestination || message.id == kInfoSource;
+}
+
 DatagramAdmission examine_submessage(const Submessage& message, const GuidPrefix& sender) {
   switch (message.id) {
     case kPad:
@@ -138,7 +144,7 @@ Plain plain_kind_of(const Submessage& message) {
       return Plain::speech;
     case kData:  // both have their writer at the same place
     case kDataFragment: {
-      const std::uint32_t writer = ByteView{message.body.part(8, 4).bytes, false}.u32(0);
+      const std::uint32_t writer = message.body.entity_id(8);
       const bool early = writer == kParticipants || writer == kHandshakes;
       return early ? Plain::speech : Plain::refused;
     }

@@ -16,6 +16,11 @@ struct Submessage {
   ByteView body;  ///< bytes after the four of its header
 };
 
+/// Returns whether it is DATA or DATA_FRAG.
+bool is_data(const Submessage&);
+/// Returns whether it only says when, from whom and for whom those behind it are.
+bool is_context(const Submessage&);
+
 /// Bounds the numbers of samples that are believed: a writer of a million a second has nine years until then. Fast DDS
 /// aborts on a sum of numbers that has no 64 bits.
 inline constexpr std::int64_t kHighestNumber = std::int64_t{1} << 48;

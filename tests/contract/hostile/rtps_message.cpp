@@ -44,6 +44,12 @@ void put_string(Bytes& out, const std::string& text) {
   out.push_back(0);
 }
 
+// The set of a GAP, an ACKNACK or a NACK_FRAG behind its base.
+void put_bits(Bytes& body, std::uint32_t bits, std::uint8_t each_byte) {
+  put_u32(body, bits);
+  body.resize(body.size() + (bits + 31) / 32 * 4, each_byte);
+}
+
 }  // namespace
 
 Parameters& Parameters::add_string(std::uint16_t id, const std::string& text) {
@@ -149,8 +155,7 @@ Message& Message::gap(Entity reader, Entity writer, std::int64_t start, std::int
   put_entity(body, writer);
   put_sequence_number(body, start);
   put_sequence_number(body, base);
-  put_u32(body, bits);
-  body.resize(body.size() + (bits + 31) / 32 * 4);
+  put_bits(body, bits, 0);
   return submessage(0x08, 0, body);
 }
 
@@ -160,8 +165,7 @@ Message& Message::acknack(Entity reader, Entity writer, std::int64_t base, std::
   put_entity(body, reader);
   put_entity(body, writer);
   put_sequence_number(body, base);
-  put_u32(body, bits);
-  body.resize(body.size() + (bits + 31) / 32 * 4, asked);
+  put_bits(body, bits, asked);
   put_u32(body, count);
   return submessage(0x06, 0, body);
 }
@@ -173,8 +177,7 @@ Message& Message::nack_fragments(Entity reader, Entity writer, std::int64_t numb
   put_entity(body, writer);
   put_sequence_number(body, number);
   put_u32(body, base);
-  put_u32(body, bits);
-  body.resize(body.size() + (bits + 31) / 32 * 4, asked);
+  put_bits(body, bits, asked);
   put_u32(body, count);
   return submessage(0x12, 0, body);
 }
